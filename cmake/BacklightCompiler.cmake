@@ -1,0 +1,22 @@
+# Compiler settings that every target shares.
+#
+# -ffp-contract=off: a*b+c is two roundings on every machine, so that images have the same bits everywhere.
+# -fno-math-errno, -fno-trapping-math: change no result; they let sqrt and selects stay instructions.
+add_library(backlight_compiler INTERFACE)
+target_compile_features(backlight_compiler INTERFACE cxx_std_20)
+target_compile_options(backlight_compiler INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
+  -ffp-contract=off -fno-math-errno -fno-trapping-math)
+# gcc 12 warns falsely about std::string's own operator+ (GCC bug 105651).
+target_compile_options(backlight_compiler INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+
+if(BACKLIGHT_SANITIZE STREQUAL "address")
+  target_compile_options(backlight_compiler INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(backlight_compiler INTERFACE -fsanitize=address,undefined)
+elseif(BACKLIGHT_SANITIZE STREQUAL "thread")
+  target_compile_options(backlight_compiler INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(backlight_compiler INTERFACE -fsanitize=thread)
+elseif(BACKLIGHT_SANITIZE)
+  message(FATAL_ERROR "BACKLIGHT_SANITIZE is '${BACKLIGHT_SANITIZE}'; expected address, thread or nothing")
+endif()

@@ -1,0 +1,68 @@
+// Reading whole files, and writing files that are never seen half written.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "backlight/base/result.h"
+
+namespace backlight {
+
+/// A file being written. The bytes go to a hidden temporary in the folder of `path`; `commit` moves it to
+/// `path` in one step, so that a file under its final name is always whole, whatever fails or is killed.
+/// Without a commit the destructor removes the temporary, and a file that was at `path` before is untouched.
+///
+/// The first failure is kept: later calls do nothing and return it again. A caller behind an interface that
+/// swallows errors may therefore look once, at the commit. Not for concurrent use of one object.
+class AtomicFile {
+ public:
+  /// Makes missing parent folders and opens the temporary. Fails where the file could not be put in place
+  /// either: the folder cannot be written, or `path` is a folder or a device.
+  static Result<AtomicFile> create(const std::filesystem::path& path);
+
+  AtomicFile(AtomicFile&& other) noexcept;
+  AtomicFile& operator=(AtomicFile&& other) noexcept;
+  ~AtomicFile();
+
+  /// Writes at the position and moves it on. Every byte is handed to the system before this returns.
+  Result<void> write(std::span<const std::byte> bytes);
+  Result<void> write(std::string_view text);
+
+  /// The next write goes to `position`, bytes from the beginning; a gap left behind reads as zeros.
+  void seek(std::uint64_t position) { position_ = position; }
+  [[nodiscard]] std::uint64_t position() const { return position_; }
+
+  /// Flushes the bytes to the disk, renames the temporary to `path`, and flushes the folder. On failure the
+  /// temporary is gone and `path` is as it was (a failing flush of the folder excepted: the file is then in
+  /// place and whole, but may not outlive a power cut).
+  Result<void> commit();
+
+  /// Removes the temporary. Further calls fail.
+  void abandon();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// The first failure, or success.
+  [[nodiscard]] Result<void> status() const;
+
+ private:
+  AtomicFile(std::filesystem::path path, std::filesystem::path temporary, int descriptor);
+  Result<void> fail(int error_number);
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  int descriptor_ = -1;
+  std::uint64_t position_ = 0;
+  std::string error_;
+};
+
+/// Writes `contents` to `path` through an AtomicFile.
+Result<void> write_file(const std::filesystem::path& path, std::string_view contents);
+
+/// All bytes of a file. Fails on a folder, a missing or an unreadable file.
+Result<std::string> read_file(const std::filesystem::path& path);
+
+}  // namespace backlight

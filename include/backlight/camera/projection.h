@@ -1,0 +1,44 @@
+// From pixels to directions and back: docs/physics.md section 2.
+#pragma once
+
+#include <optional>
+
+#include "backlight/base/vector.h"
+
+namespace backlight {
+
+enum class Projection { perspective, equirectangular, mercator, fisheye };
+
+/// A position on the image, in pixels: (0, 0) is the upper left corner of the upper left pixel, y down.
+struct ImagePoint {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// A pinhole's geometry in the camera's rest frame. Axes are orthonormal: right = forward × up.
+struct Lens {
+  Projection projection = Projection::perspective;
+  int width = 1;                    ///< pixels of the full image
+  int height = 1;                   ///< pixels of the full image
+  double fov = 1.0471975511965976;  ///< perspective, fisheye: full horizontal angle in radians
+  Vec3 forward{0.0, 0.0, 1.0};
+  Vec3 right{-1.0, 0.0, 0.0};
+  Vec3 up{0.0, 1.0, 0.0};
+};
+
+/// The unit looking direction through an image point, in the camera's frame. Empty where the projection
+/// shows nothing (outside a fisheye's circle).
+std::optional<Vec3> direction_at(const Lens& lens, const ImagePoint& point);
+
+/// Where a direction (unit, camera frame) falls on the image. Empty when it is not on the film. The inverse
+/// of direction_at, to a few ulp of the image size.
+std::optional<ImagePoint> point_of(const Lens& lens, const Vec3& direction);
+
+/// The solid angle in steradians of one pixel at an image point: the Jacobian of direction_at.
+double pixel_solid_angle(const Lens& lens, const ImagePoint& point);
+
+/// The lens's axes from a looking direction and an approximate up, both of any length but zero and not
+/// parallel; false if they are.
+bool aim(Lens& lens, const Vec3& direction, const Vec3& up);
+
+}  // namespace backlight
