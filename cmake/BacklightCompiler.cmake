@@ -6,6 +6,7 @@ add_library(backlight_compiler INTERFACE)
 target_compile_features(backlight_compiler INTERFACE cxx_std_20)
 target_compile_options(backlight_compiler INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
+  -Wno-missing-field-initializers  # what a designated initialiser leaves out has a default, on purpose
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
 # gcc 12 warns falsely about std::string's own operator+ (GCC bug 105651).
 target_compile_options(backlight_compiler INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)

@@ -61,7 +61,7 @@ bool run_on_threads(std::size_t count, int threads, const std::atomic<bool>& sto
     work(0);
   }
   if (failure) std::rethrow_exception(failure);
-  return done.load() == count;
+  return done.load() == count && !stop.load();
 }
 
 int usable_threads() {

@@ -1,0 +1,121 @@
+// Spectra: what a lamp sends out and what a surface gives back, at any wavelength.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "backlight/colour/rgb.h"
+#include "backlight/colour/upsampling.h"
+
+namespace backlight {
+
+/// Planck's law: spectral radiance, in W/(m^2 sr nm), of a blackbody of temperature `kelvin` > 0 at `nm` > 0
+/// in vacuum. Constants of the SI of 2019. Zero where the value underflows.
+double blackbody_radiance(double kelvin, double nm);
+
+class Spectrum;
+
+/// A spectrum, or the reason why there is none. Exactly one of the two is set.
+struct SpectrumOrError;
+
+/// A function of the wavelength in nm, in the frame of what carries it: a reflectance (0..1, no unit), or a
+/// spectral radiance, intensity or irradiance, relative to D65's: `d65()` has film Y = 1 (see
+/// `WavelengthSet`). Never negative, and finite for every wavelength > 0, since Doppler shifts ask for gamma
+/// rays and radio waves. A value type: copies are cheap, and evaluation neither allocates nor locks.
+class Spectrum {
+ public:
+  /// Zero everywhere.
+  Spectrum() = default;
+
+  /// `value` >= 0 at every wavelength.
+  static Spectrum constant(double value);
+
+  /// The smooth reflectance that has the colour `rgb` under D65 (`fit_sigmoid`). Components are clamped to
+  /// [0, 1]: a surface cannot give back more than it gets; whoever reads the number should warn. A grey is a
+  /// constant. Outside 360..830 nm it keeps its end values; a level `uv` or `ir` in [0, 1] is reached
+  /// linearly in wavelength from 360 down to 300 nm, or from 830 up to 890 nm, and kept beyond.
+  static Spectrum reflectance(const LinearRgb& rgb, std::optional<double> uv = {},
+                              std::optional<double> ir = {});
+
+  /// The same with a shape at hand, from `upsample` say.
+  static Spectrum sigmoid_reflectance(const SigmoidReflectance& shape, std::optional<double> uv = {},
+                                      std::optional<double> ir = {});
+
+  /// An emission whose film colour is `rgb`, of any brightness: D65 times a sigmoid. White is a multiple of
+  /// D65. Negative components count as 0.
+  static Spectrum illuminant(const LinearRgb& rgb);
+
+  /// CIE illuminant D65, 1 at 560 nm: the table from 360 to 830 nm; outside, a blackbody of 6504 K, scaled on
+  /// each side to continue the table.
+  static Spectrum d65();
+
+  /// A blackbody of temperature `kelvin` > 0, scaled to film Y = 1 at rest. Below 26 K that scale takes the
+  /// infrared past the largest double; it is kept at the largest double there.
+  static Spectrum blackbody(double kelvin);
+
+  /// A blackbody of temperature `kelvin`, scaled as the one of `reference_kelvin` would be: bodies that share
+  /// a reference keep their true brightness relative to each other.
+  static Spectrum blackbody(double kelvin, double reference_kelvin);
+
+  /// Straight lines between the points given; the end values are kept outside. Fails unless there are as many
+  /// wavelengths (nm, > 0, ascending) as values (>= 0), at least one, all finite.
+  static SpectrumOrError tabulated(std::vector<double> wavelengths, std::vector<double> values);
+
+  /// This spectrum times `factor` >= 0.
+  [[nodiscard]] Spectrum scaled(double factor) const;
+
+  /// The value at `nm` > 0.
+  [[nodiscard]] double at(double nm) const;
+
+  /// out[i] = at(nm[i]) for i < n, to the same bits.
+  void evaluate(const double* nm, int n, double* out) const;
+
+  /// The same at every wavelength: a reflectance that no shift changes.
+  [[nodiscard]] bool is_grey() const;
+
+  /// A multiple of `d65()`: under such light, at rest, a reflectance made from an RGB colour shows that
+  /// colour.
+  [[nodiscard]] bool is_d65_shaped() const;
+
+ private:
+  enum class Kind { constant, sigmoid, d65, illuminant, blackbody, tabulated };
+  struct Table {
+    std::vector<double> nm;
+    std::vector<double> values;
+  };
+
+  template <class Visitor>
+  void visit(const Visitor& visitor) const;
+
+  [[nodiscard]] double reflectance_at(double nm) const;
+  [[nodiscard]] double d65_at(double nm) const;
+
+  Kind kind_ = Kind::constant;
+  double scale_ = 0.0;
+  SigmoidReflectance shape_;      // sigmoid and illuminant
+  double uv_ = 0.0;               // sigmoid: level at 300 nm and below...
+  double ir_ = 0.0;               // ...and at 890 nm and above
+  double kelvin_ = 0.0;           // blackbody
+  double short_log_scale_ = 0.0;  // D65: joins its blackbody at 360 nm...
+  double long_log_scale_ = 0.0;   // ...and at 830 nm; blackbody: luminance of its reference temperature
+  std::shared_ptr<const Table> table_;
+};
+
+struct SpectrumOrError {
+  std::optional<Spectrum> spectrum;
+  std::string error;
+};
+
+/// The film colour of an emission at rest, by the CIE's sum over 1 nm: what every `WavelengthSet`
+/// approximates.
+LinearRgb film_colour(const Spectrum& emission);
+
+/// The film colour of a white-lit reflectance: of `reflectance` times D65, by the same sum.
+LinearRgb colour_under_d65(const Spectrum& reflectance);
+
+/// The film colour of `reflectance` times `light`, by the same sum.
+LinearRgb colour_under(const Spectrum& light, const Spectrum& reflectance);
+
+}  // namespace backlight

@@ -1,0 +1,85 @@
+// Numbers written as text: "2*t + sin(pi*t)".
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "backlight/expression/dual.h"
+#include "backlight/expression/tape.h"
+
+namespace backlight {
+
+/// Why a text is not an expression. The column counts from 1 within the text, in characters (UTF-8 code
+/// points), and `length` is in characters too: the caret of a diagnostic.
+struct ExpressionError {
+  int column = 1;
+  int length = 1;
+  std::string message;
+  std::string hint;  ///< what to write instead; may be empty
+};
+
+/// A formula in named variables. Immutable, cheap to copy, and safe to use from many threads at once.
+///
+///     sum     = product { ("+" | "-") product }
+///     product = signed { ("*" | "/") signed }
+///     signed  = { "+" | "-" } power
+///     power   = value [ "^" signed ]              right-associative: -2^2 = -4, 2^3^2 = 512
+///     value   = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
+///
+/// The functions are C's sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt cbrt abs floor pow (in
+/// radians), min and max of two or more, mod(a, b) = a - b floor(a/b), clamp(x, low, high); the constants pi
+/// and e.
+///
+/// Outside a function's domain the value is NaN (and NaN stays NaN through min, max and clamp); a division by
+/// zero or an overflow is infinite. Neither is an error here: callers check with std::isfinite.
+class Expression {
+ public:
+  /// A text longer than this, in bytes, is refused.
+  static constexpr std::size_t longest_text = 65536;
+  /// Parentheses, signs and powers nested deeper than this are refused.
+  static constexpr int deepest_nesting = 200;
+
+  /// The constant 0.
+  Expression();
+
+  /// Compiles `text`. A name of the language (is_expression_name) is never looked up in `variables`.
+  static std::variant<Expression, ExpressionError> parse(std::string_view text,
+                                                         const std::vector<std::string>& variables);
+
+  /// The value for variables in the order they were given to parse().
+  /// Throws std::invalid_argument when `values` is too short. Allocates only beyond 64 live intermediate
+  /// values.
+  [[nodiscard]] double evaluate(std::span<const double> values) const;
+
+  /// The value, and its derivative when each variable changes at the rate of its own `derivative`.
+  [[nodiscard]] Dual evaluate(std::span<const Dual> values) const;
+
+  /// Whether the value depends on the variable of this index.
+  [[nodiscard]] bool uses(std::size_t variable) const;
+
+  /// The value, when it depends on no variable. May be NaN or infinite, as in "1/0".
+  [[nodiscard]] std::optional<double> constant() const;
+
+  /// The text as written.
+  [[nodiscard]] const std::string& text() const;
+
+  /// The program, for evaluation with other number types: run() of tape.h.
+  [[nodiscard]] const Tape& tape() const;
+
+ private:
+  struct Compiled;
+  explicit Expression(std::shared_ptr<const Compiled> compiled);
+
+  std::shared_ptr<const Compiled> compiled_;
+};
+
+/// Whether `name` means something in every expression: a function, or pi or e. No variable may be called so.
+bool is_expression_name(std::string_view name);
+
+}  // namespace backlight

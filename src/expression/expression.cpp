@@ -1,0 +1,86 @@
+#include "backlight/expression/expression.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "graph.h"
+#include "parser.h"
+
+namespace backlight {
+
+struct Expression::Compiled {
+  std::string text;
+  Tape tape;
+  std::size_t variables;
+};
+
+namespace {
+
+constexpr std::size_t registers_on_stack = 64;
+
+template <class N>
+N evaluate_tape(const Tape& tape, std::size_t variables, std::span<const N> values) {
+  if (values.size() < variables) throw std::invalid_argument("Expression::evaluate: a variable has no value");
+  if (tape.registers <= registers_on_stack) {
+    std::array<N, registers_on_stack> registers;  // not initialised: each is written before it is read
+    return run<N>(tape, values, registers);
+  }
+  std::vector<N> registers(tape.registers);
+  return run<N>(tape, values, registers);
+}
+
+}  // namespace
+
+Expression::Expression() {
+  static const auto zero =
+      std::make_shared<const Compiled>(Compiled{"0", Tape{{{Operation::constant, 0, 0, 0}}, {0.0}, 1}, 0});
+  compiled_ = zero;
+}
+
+Expression::Expression(std::shared_ptr<const Compiled> compiled) : compiled_(std::move(compiled)) {}
+
+std::variant<Expression, ExpressionError> Expression::parse(std::string_view text,
+                                                            const std::vector<std::string>& variables) {
+  Graph graph;
+  try {
+    const Graph::Node root = Parser(text, variables, graph).parse();
+    return Expression(
+        std::make_shared<const Compiled>(Compiled{std::string(text), graph.tape(root), variables.size()}));
+  } catch (ExpressionError& error) {
+    return std::move(error);
+  }
+}
+
+double Expression::evaluate(std::span<const double> values) const {
+  return evaluate_tape<double>(compiled_->tape, compiled_->variables, values);
+}
+
+Dual Expression::evaluate(std::span<const Dual> values) const {
+  return evaluate_tape<Dual>(compiled_->tape, compiled_->variables, values);
+}
+
+bool Expression::uses(std::size_t variable) const {
+  const auto& steps = compiled_->tape.instructions;
+  return std::any_of(steps.begin(), steps.end(), [variable](const Instruction& step) {
+    return step.operation == Operation::variable && step.a == variable;
+  });
+}
+
+std::optional<double> Expression::constant() const {
+  const Tape& tape = compiled_->tape;
+  if (tape.instructions.size() != 1 || tape.instructions[0].operation != Operation::constant)
+    return std::nullopt;
+  return tape.constants[0];
+}
+
+const std::string& Expression::text() const {
+  return compiled_->text;
+}
+
+const Tape& Expression::tape() const {
+  return compiled_->tape;
+}
+
+}  // namespace backlight

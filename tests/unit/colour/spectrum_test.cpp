@@ -1,0 +1,251 @@
+#include "backlight/colour/spectrum.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "backlight/colour/observer.h"
+
+namespace backlight {
+namespace {
+
+void expect_colour(const LinearRgb& actual, const LinearRgb& expected, double tolerance) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(actual[c], expected[c], tolerance) << "component " << c;
+}
+
+std::vector<Spectrum> one_of_each() {
+  return {Spectrum(),
+          Spectrum::constant(0.4),
+          Spectrum::reflectance({0.6, 0.25, 0.2}),
+          Spectrum::reflectance({0.6, 0.25, 0.2}, 0.05, 0.9),
+          Spectrum::illuminant({3.0, 0.2, 7.0}),
+          Spectrum::illuminant(LinearRgb{2.0}),
+          Spectrum::d65(),
+          Spectrum::blackbody(3.0),
+          Spectrum::blackbody(300.0),
+          Spectrum::blackbody(300.0, 5000.0),
+          Spectrum::blackbody(1e9),
+          *Spectrum::tabulated({400.0, 500.0, 700.0}, {0.1, 1.0, 0.5}).spectrum};
+}
+
+// 2 h c^2 / nm^5 / (exp(h c / (nm k T)) - 1), computed with 40 digits.
+TEST(Planck, SpectralRadiance) {
+  const auto near = [](double kelvin, double nm, double expected) {
+    EXPECT_NEAR(blackbody_radiance(kelvin, nm) / expected, 1.0, 1e-13) << kelvin << " K, " << nm << " nm";
+  };
+  near(5772.0, 500.0, 26238.5405685958308);
+  near(6504.0, 360.0, 42332.915386035337);
+  near(300.0, 1e4, 0.00992403333007069467);
+  near(300.0, 550.0, 3.19332974179773319e-32);
+  near(2856.0, 1e6, 2.35829318002348303e-8);
+  near(2.725, 1.063e6, 6.15400487084068689e-13);
+  near(1e7, 0.1, 6.72046138613517466e18);
+  EXPECT_EQ(blackbody_radiance(300.0, 1e-3), 0.0);
+}
+
+TEST(Blackbody, HasThePlanckianShape) {
+  for (const double kelvin : {300.0, 2856.0, 6504.0, 30000.0}) {
+    const Spectrum body = Spectrum::blackbody(kelvin);
+    const double scale = body.at(555.0) / blackbody_radiance(kelvin, 555.0);
+    for (const double nm : {200.0, 360.0, 830.0, 1e4, 1e9}) {
+      EXPECT_NEAR(body.at(nm) / blackbody_radiance(kelvin, nm) / scale, 1.0, 2e-13) << kelvin << " " << nm;
+    }
+  }
+}
+
+TEST(Blackbody, HasUnitLuminance) {
+  for (const double kelvin : {30.0, 300.0, 1000.0, 6504.0, 1e5, 1e9}) {
+    EXPECT_NEAR(luminance(film_colour(Spectrum::blackbody(kelvin))), 1.0, 1e-12) << kelvin;
+  }
+}
+
+// A blackbody seen with a Doppler factor D is a blackbody of D times the temperature, radiance included.
+TEST(Blackbody, ShiftsToAnotherTemperature) {
+  for (const double doppler : {0.2, 0.9, 1.5, 5.0}) {
+    const Spectrum body = Spectrum::blackbody(5000.0);
+    const Spectrum shifted = Spectrum::blackbody(5000.0 * doppler, 5000.0);
+    for (double nm = 360.0; nm <= 830.0; nm += 10.0) {
+      EXPECT_NEAR(std::pow(doppler, 5.0) * body.at(doppler * nm) / shifted.at(nm), 1.0, 1e-13)
+          << doppler << " " << nm;
+    }
+  }
+}
+
+TEST(Blackbody, ReferenceKeepsTrueBrightness) {
+  const double ratio = Spectrum::blackbody(3000.0, 6000.0).at(600.0) / Spectrum::blackbody(6000.0).at(600.0);
+  EXPECT_NEAR(ratio, blackbody_radiance(3000.0, 600.0) / blackbody_radiance(6000.0, 600.0), 1e-13);
+}
+
+TEST(D65, IsTheTable) {
+  // CIE 15:2004, table T.1.
+  EXPECT_NEAR(Spectrum::d65().at(360.0), 0.466383, 1e-15);
+  EXPECT_NEAR(Spectrum::d65().at(450.0), 1.17008, 1e-15);
+  EXPECT_NEAR(Spectrum::d65().at(560.0), 1.0, 1e-15);
+  EXPECT_NEAR(Spectrum::d65().at(700.0), 0.716091, 1e-15);
+  EXPECT_NEAR(Spectrum::d65().at(830.0), 0.603125, 1e-15);
+  EXPECT_NEAR(Spectrum::d65().at(452.0), 0.6 * 1.17008 + 0.4 * 1.17410, 1e-14);
+}
+
+TEST(D65, IsWhiteOnFilm) {
+  expect_colour(film_colour(Spectrum::d65()), LinearRgb{1.0}, 1e-14);
+}
+
+TEST(D65, GoesOnAsABlackbody) {
+  const Spectrum d65 = Spectrum::d65();
+  EXPECT_NEAR(d65.at(360.0 - 1e-9), d65.at(360.0), 1e-10);
+  EXPECT_NEAR(d65.at(830.0 + 1e-9), d65.at(830.0), 1e-10);
+  const auto planck = [](double nm) { return blackbody_radiance(6504.0, nm); };
+  EXPECT_NEAR(d65.at(100.0) / d65.at(360.0), planck(100.0) / planck(360.0),
+              1e-13 * planck(100.0) / planck(360.0));
+  EXPECT_NEAR(d65.at(1e4) / d65.at(830.0), planck(1e4) / planck(830.0), 1e-13 * planck(1e4) / planck(830.0));
+}
+
+TEST(Spectrum, FiniteAndNeverNegative) {
+  for (const Spectrum& spectrum : one_of_each()) {
+    for (double exponent = -3.0; exponent <= 12.0; exponent += 0.01) {
+      const double value = spectrum.at(std::pow(10.0, exponent));
+      ASSERT_TRUE(std::isfinite(value)) << exponent;
+      ASSERT_GE(value, 0.0) << exponent;
+    }
+    EXPECT_TRUE(std::isfinite(spectrum.at(std::numeric_limits<double>::min())));
+    EXPECT_TRUE(std::isfinite(spectrum.at(std::numeric_limits<double>::max())));
+  }
+}
+
+TEST(Spectrum, BatchesHaveTheSameBits) {
+  std::vector<double> nm;
+  for (double at = 200.0; at < 1500.0; at *= 1.01) nm.push_back(at);
+  std::vector<double> values(nm.size());
+  for (const Spectrum& spectrum : one_of_each()) {
+    spectrum.evaluate(nm.data(), static_cast<int>(nm.size()), values.data());
+    for (std::size_t i = 0; i < nm.size(); ++i) ASSERT_EQ(values[i], spectrum.at(nm[i])) << nm[i];
+  }
+}
+
+TEST(Spectrum, Scaled) {
+  for (const Spectrum& spectrum : one_of_each()) {
+    EXPECT_NEAR(spectrum.scaled(3.0).at(600.0), 3.0 * spectrum.at(600.0), 1e-15 * 3.0 * spectrum.at(600.0));
+  }
+}
+
+TEST(Reflectance, RoundTrip) {
+  double sampled_worst = 0.0;
+  const WavelengthSet set;
+  for (const double r : {0.0, 0.02, 0.5, 0.98, 1.0}) {
+    for (const double g : {0.0, 0.1, 0.4, 1.0}) {
+      for (const double b : {0.0, 0.03, 0.6, 1.0}) {
+        const Spectrum surface = Spectrum::reflectance({r, g, b});
+        expect_colour(colour_under_d65(surface), {r, g, b}, 1e-9);
+        LinearRgb sampled{0.0};
+        for (int i = 0; i < set.size(); ++i) {
+          const double nm = set.nm()[static_cast<std::size_t>(i)];
+          sampled += surface.at(nm) * Spectrum::d65().at(nm) * set.weight(i);
+        }
+        sampled_worst = std::max(sampled_worst, delta_e_2000(lab_from_rgb(sampled), lab_from_rgb({r, g, b})));
+      }
+    }
+  }
+  EXPECT_LT(sampled_worst, 0.03);
+}
+
+TEST(Reflectance, GreysAreConstant) {
+  for (const double value : {0.0, 0.18, 1.0}) {
+    const Spectrum grey = Spectrum::reflectance(LinearRgb{value});
+    for (const double nm : {1.0, 400.0, 800.0, 1e6}) EXPECT_EQ(grey.at(nm), value);
+    EXPECT_TRUE(grey.is_grey());
+  }
+}
+
+TEST(Reflectance, ClampsToWhatIsPossible) {
+  EXPECT_EQ(Spectrum::reflectance(LinearRgb{1.7}).at(500.0), 1.0);
+  EXPECT_EQ(Spectrum::reflectance(LinearRgb{-0.2}).at(500.0), 0.0);
+  EXPECT_EQ(Spectrum::reflectance({2.0, 0.5, 0.5}).at(500.0),
+            Spectrum::reflectance({1.0, 0.5, 0.5}).at(500.0));
+}
+
+TEST(Reflectance, KeepsItsEndsUnlessToldOtherwise) {
+  const Spectrum plain = Spectrum::reflectance({0.8, 0.3, 0.1});
+  EXPECT_EQ(plain.at(100.0), plain.at(360.0));
+  EXPECT_EQ(plain.at(1e5), plain.at(830.0));
+
+  const Spectrum levelled = Spectrum::reflectance({0.8, 0.3, 0.1}, 0.5, 0.25);
+  for (const double nm : {360.0, 500.0, 830.0}) EXPECT_EQ(levelled.at(nm), plain.at(nm));
+  EXPECT_NEAR(levelled.at(330.0), 0.5 * (plain.at(360.0) + 0.5), 1e-15);
+  EXPECT_NEAR(levelled.at(300.0), 0.5, 1e-15);
+  EXPECT_NEAR(levelled.at(10.0), 0.5, 1e-15);
+  EXPECT_NEAR(levelled.at(860.0), 0.5 * (plain.at(830.0) + 0.25), 1e-15);
+  EXPECT_NEAR(levelled.at(890.0), 0.25, 1e-15);
+  EXPECT_NEAR(levelled.at(1e6), 0.25, 1e-15);
+}
+
+TEST(Illuminant, HasItsColour) {
+  for (const LinearRgb& rgb :
+       {LinearRgb{1.0, 0.5, 0.2}, {0.0, 0.0, 4.0}, {300.0, 1.0, 0.0}, {0.0, 1e-3, 1e-3}}) {
+    const double most = std::max({rgb.x, rgb.y, rgb.z});
+    expect_colour(film_colour(Spectrum::illuminant(rgb)), rgb, 1e-9 * most);
+  }
+}
+
+TEST(Illuminant, WhiteIsD65) {
+  const Spectrum white = Spectrum::illuminant(LinearRgb{2.5});
+  EXPECT_TRUE(white.is_d65_shaped());
+  for (const double nm : {100.0, 360.0, 555.0, 830.0, 5000.0})
+    EXPECT_EQ(white.at(nm), 2.5 * Spectrum::d65().at(nm));
+}
+
+TEST(Illuminant, BlackIsDark) {
+  EXPECT_EQ(Spectrum::illuminant(LinearRgb{0.0}).at(500.0), 0.0);
+  EXPECT_EQ(Spectrum::illuminant({-1.0, 0.0, -3.0}).at(500.0), 0.0);
+}
+
+TEST(Tabulated, StraightLinesAndEndValues) {
+  const SpectrumOrError made = Spectrum::tabulated({400.0, 500.0, 700.0}, {0.1, 1.0, 0.5});
+  ASSERT_TRUE(made.spectrum) << made.error;
+  EXPECT_EQ(made.spectrum->at(400.0), 0.1);
+  EXPECT_NEAR(made.spectrum->at(425.0), 0.325, 1e-15);
+  EXPECT_EQ(made.spectrum->at(500.0), 1.0);
+  EXPECT_NEAR(made.spectrum->at(600.0), 0.75, 1e-15);
+  EXPECT_EQ(made.spectrum->at(1.0), 0.1);
+  EXPECT_EQ(made.spectrum->at(1e9), 0.5);
+  EXPECT_EQ(Spectrum::tabulated({555.0}, {0.3}).spectrum->at(123.0), 0.3);
+}
+
+TEST(Tabulated, SaysWhatIsWrong) {
+  const auto error = [](std::vector<double> nm, std::vector<double> values) {
+    const SpectrumOrError made = Spectrum::tabulated(std::move(nm), std::move(values));
+    EXPECT_FALSE(made.spectrum);
+    return made.error;
+  };
+  EXPECT_EQ(error({}, {}), "a spectrum needs at least one wavelength");
+  EXPECT_EQ(error({400, 500}, {1}),
+            "a spectrum needs as many values as wavelengths; there are 2 wavelengths and 1 values");
+  EXPECT_EQ(error({400, 400}, {1, 1}), "wavelengths must ascend (number 2)");
+  EXPECT_EQ(error({400, 300}, {1, 1}), "wavelengths must ascend (number 2)");
+  EXPECT_EQ(error({0}, {1}), "a wavelength must be a positive number of nanometres (number 1)");
+  EXPECT_EQ(error({400, 500, 600}, {1, 1, -0.1}), "a spectrum's value must not be negative (number 3)");
+  EXPECT_EQ(error({400}, {std::nan("")}), "a spectrum's value must be finite (number 1)");
+}
+
+TEST(Spectrum, KnowsWhatItIs) {
+  EXPECT_TRUE(Spectrum::constant(0.5).is_grey());
+  EXPECT_TRUE(Spectrum::reflectance(LinearRgb{0.5}, 0.5, 0.5).is_grey());
+  EXPECT_FALSE(Spectrum::reflectance(LinearRgb{0.5}, 0.1).is_grey());
+  EXPECT_FALSE(Spectrum::reflectance({0.5, 0.4, 0.5}).is_grey());
+  EXPECT_FALSE(Spectrum::d65().is_grey());
+  EXPECT_TRUE(Spectrum::d65().scaled(7.0).is_d65_shaped());
+  EXPECT_FALSE(Spectrum::blackbody(6504.0).is_d65_shaped());
+  EXPECT_FALSE(Spectrum::illuminant({1.0, 0.9, 1.0}).is_d65_shaped());
+  EXPECT_FALSE(Spectrum::constant(1.0).is_d65_shaped());
+  EXPECT_TRUE(Spectrum().is_grey());
+  EXPECT_TRUE(Spectrum().is_d65_shaped());
+}
+
+TEST(ColourUnder, ColouredLightOnAGreySurfaceKeepsItsColour) {
+  const LinearRgb amber{1.0, 0.6, 0.1};
+  expect_colour(colour_under(Spectrum::illuminant(amber), Spectrum::constant(0.5)), 0.5 * amber, 1e-9);
+}
+
+}  // namespace
+}  // namespace backlight
