@@ -1,0 +1,130 @@
+// OpenEXR files: scanlines, ZIP, one part. The same picture and header give the same bytes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "backlight/base/result.h"
+#include "backlight/base/vector.h"
+#include "backlight/film/image.h"
+
+namespace backlight {
+
+/// The types of header attribute that are written, and kept when read: EXR's int, float, double, string, v3d
+/// and stringvector.
+using ExrValue = std::variant<std::int32_t, float, double, std::string, Vec3, std::vector<std::string>>;
+
+struct ExrAttribute {
+  std::string name;  ///< "backlight/..." for what is ours
+  ExrValue value;
+};
+
+/// What a file says about its picture besides the pixels.
+struct ExrHeader {
+  std::string software;  ///< attribute "Software"; empty: not written
+  std::string comments;  ///< attribute "comments"; empty: not written
+
+  /// The luminance in cd/m^2 of the film value (1, 1, 1). Film values have no absolute scale: the default is
+  /// the usual reference white of Rec.709 displays.
+  float white_luminance = 100.0F;
+
+  /// Row after row, for row vectors: p_camera = p_world * M. See world_to_camera_matrix.
+  std::optional<std::array<float, 16>> world_to_camera;
+
+  /// Seconds since 1970 (UTC), written as capDate; without it no clock goes into the file. Only written: a
+  /// file's capDate is read as an attribute of that name.
+  std::optional<std::int64_t> creation_time;
+
+  /// Further attributes, in any order. A name must not be one that describes the file itself ("channels",
+  /// "dataWindow"...).
+  std::vector<ExrAttribute> attributes;
+
+  /// The value of attribute `name` if it is there and a `T`, else null.
+  template <typename T>
+  [[nodiscard]] const T* find(std::string_view name) const {
+    for (const ExrAttribute& attribute : attributes) {
+      if (attribute.name == name) {
+        return std::get_if<T>(&attribute.value);
+      }
+    }
+    return nullptr;
+  }
+};
+
+/// The matrix that takes world points to the camera's coordinates x = right, y = up, z = backward (the camera
+/// looks along -z, as Maya, Nuke and Blender have it). `right`, `up`, `forward` are orthonormal; the position
+/// and the axes are those of one moment, in one frame.
+std::array<float, 16> world_to_camera_matrix(const Vec3& position, const Vec3& right, const Vec3& up,
+                                             const Vec3& forward);
+
+/// The value of the environment variable SOURCE_DATE_EPOCH (reproducible-builds.org), if it is set. Fails if
+/// it is not a whole number >= 0.
+Result<std::optional<std::int64_t>> source_date_epoch();
+
+/// When channels of half precision are widened to float, all of them together.
+enum class ColourStorage {
+  automatic,    ///< if a finite value of one of them passes half's range, |x| > 65504
+  always_float  ///< always
+};
+
+/// Writes rows from top to bottom into a temporary beside `path`; nothing is at `path` before the commit.
+/// Without a commit the destructor removes the temporary. Holds a band of rows, not the picture.
+///
+/// Half is rounded to nearest, ties to even. A writer of rows cannot look ahead, so the channels are stored
+/// exactly as the layout says, and a value out of half's range makes write_rows fail.
+class ExrWriter {
+ public:
+  /// Fails if the layout has no pixel, no channel, two channels of one name or an empty name, if the header
+  /// has an attribute that cannot be written, or if the file cannot be made.
+  static Result<ExrWriter> open(const std::filesystem::path& path, const ImageLayout& layout,
+                                const ExrHeader& header);
+
+  ExrWriter(ExrWriter&&) noexcept;
+  ExrWriter& operator=(ExrWriter&&) noexcept;
+  ~ExrWriter();
+
+  /// The next rows: a plane for each channel, in the layout's order, each with `rows` rows of the data
+  /// window's width. After a failure every further call fails.
+  Result<void> write_rows(std::span<const std::span<const float>> planes, int rows);
+
+  /// Completes the file and moves it to its place. Fails if rows are missing.
+  Result<void> commit();
+
+ private:
+  class Implementation;
+  explicit ExrWriter(std::unique_ptr<Implementation> implementation);
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Writes a whole picture. On failure (the disk is full, the folder cannot be written...) nothing is left
+/// behind, and a file that was at `path` is as it was.
+Result<void> write_exr(const std::filesystem::path& path, const Image& image, const ExrHeader& header,
+                       ColourStorage storage = ColourStorage::automatic);
+
+struct ExrPicture {
+  Image image;  ///< channels in alphabetical order, as in the file
+  ExrHeader header;
+};
+
+/// Reads the first part of any flat EXR file, whatever wrote it; unsigned integers become floats. Attributes
+/// of other types than ExrValue's are left out. Fails on a file that is missing, damaged or cut short, is
+/// deep, has subsampled channels, or is wider or higher than 2^20 pixels.
+Result<ExrPicture> read_exr(const std::filesystem::path& path);
+
+/// The header and the layout alone, without decoding a pixel.
+struct ExrInfo {
+  ImageLayout layout;
+  ExrHeader header;
+};
+Result<ExrInfo> read_exr_info(const std::filesystem::path& path);
+
+}  // namespace backlight

@@ -1,0 +1,71 @@
+// What a surface looks like in its own local coordinates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "backlight/base/vector.h"
+
+namespace backlight {
+
+/// The kinds of closed-form surfaces.
+///
+/// Where the other kinds go: `implicit` (a general f(x) = 0 inside a box) and `csg` are kinds of this same
+/// enumeration, whose parameters are an index into tables that SurfaceSet keeps (formulas, part lists) so
+/// that Shape stays a plain value. An implicit surface answers the same question as the closed forms, "the
+/// ordered crossings of this local line" (src/surface/crossings.h); CSG merges the ordered crossings of its
+/// parts, which is why a solver reports all crossings of the whole line when asked to, and not only the first
+/// in front of the camera.
+enum class ShapeKind : std::uint8_t { sphere, box, cylinder, cone, torus, disk, plane, quadric };
+
+/// A surface in local coordinates (y up, centred on the local origin), as a plain value. Make one with the
+/// functions below; they do not validate, problem() does.
+struct Shape {
+  ShapeKind kind = ShapeKind::sphere;
+  std::array<double, 10> values{};  ///< the arguments of the function that made it, in their order
+};
+
+/// |x| = radius. Texture: u = 1/2 + atan2(x, z)/2pi, v = polar angle from +y over pi. So the +z axis pierces
+/// u = 1/2, v = 0 is the north pole +y, and u grows eastwards: seen from outside, north up, a map of the
+/// Earth whose middle is longitude 0 is not mirrored. Worked example: (0,0,r) has (u,v) = (0.5, 0.5);
+/// (r,0,0), to the right for a viewer out on +z, has u = 0.75 (90 degrees east); (-r,0,0) has u = 0.25.
+Shape sphere(double radius);
+
+/// |x_i| <= size_i/2. Parts 0..5: the faces -x +x -y +y -z +z. Texture: each face 0..1, u to the right and v
+/// down for a viewer outside it: with +y up for the four sides, -z up above the top, +z up below the bottom
+/// (the faces fold out around +z without a mirror image).
+Shape box(Vec3 size);
+
+/// x²+z² = radius², |y| <= height/2, closed by two caps. Parts: 0 side, 1 cap at -y, 2 cap at +y. Texture of
+/// the side: u as for the sphere, v = 0 at the top, 1 at the bottom; of the caps: the disc fills the middle
+/// of the unit square, u = 1/2 + x/2R, v = 1/2 + z/2R (top) or 1/2 - z/2R (bottom).
+Shape cylinder(double radius, double height);
+
+/// As the cylinder, its radius going linearly from `radius` at y = -height/2 to `top_radius` at +height/2;
+/// one of them may be 0 (then that end is the apex and has no cap).
+Shape cone(double radius, double top_radius, double height);
+
+/// (√(x²+z²) - major)² + y² = minor². 0 < minor < major: horn and spindle tori (minor >= major) are rejected
+/// by problem(), as their inside is not well defined. Texture: u as for the sphere; v around the tube, 1/2 on
+/// the outer equator, 1/4 on top, 0 on the inner equator, 3/4 below.
+Shape torus(double major, double minor);
+
+/// y = 0, x²+z² <= radius²; its normal is +y. Texture: as the top cap of a cylinder.
+Shape disk(double radius);
+
+/// y = 0, infinite; its normal is +y. Texture: u = x, v = z: the texture repeats once a unit.
+Shape plane();
+
+/// c0 x² + c1 y² + c2 z² + c3 xy + c4 xz + c5 yz + c6 x + c7 y + c8 z + c9 = 0, infinite; the outside (where
+/// the normal points) is where the left side is positive. Texture: u = x, v = z as for the plane.
+Shape quadric(const std::array<double, 10>& coefficients);
+
+/// Whether the surface fits into no sphere (plane and quadric; an ellipsoid given as a quadric counts as
+/// such).
+bool is_infinite(const Shape& shape);
+
+/// What is wrong with the shape ("radius must be positive and finite"), or an empty text.
+std::string problem(const Shape& shape);
+
+}  // namespace backlight

@@ -1,0 +1,16 @@
+// Between our description of a picture and OpenEXR's header.
+#pragma once
+
+#include <ImfHeader.h>
+
+#include "backlight/film/exr.h"
+
+namespace backlight {
+
+/// Throws std::exception on an attribute that cannot be written.
+Imf::Header to_imf(const ImageLayout& layout, const ExrHeader& description);
+
+/// Throws std::exception on a picture that read_exr does not read.
+ExrInfo from_imf(const Imf::Header& header);
+
+}  // namespace backlight

@@ -1,0 +1,229 @@
+#include <ImfFrameBuffer.h>
+#include <ImfIO.h>
+#include <ImfOutputFile.h>
+#include <half.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "backlight/base/files.h"
+#include "backlight/film/exr.h"
+#include "exr_header.h"
+
+namespace backlight {
+namespace {
+
+constexpr float greatest_half = 65504.0F;
+
+bool fits_half(float value) {
+  return !std::isfinite(value) || std::abs(value) <= greatest_half;
+}
+
+/// OpenEXR writes through this. A failure must leave as an exception; the file keeps the reason.
+class CheckedStream : public Imf::OStream {
+ public:
+  explicit CheckedStream(AtomicFile& file) : Imf::OStream(file.path().c_str()), file_(file) {}
+
+  void write(const char bytes[], int count) override {
+    const auto written = file_.write(std::string_view(bytes, static_cast<std::size_t>(count)));
+    if (!written.ok()) {
+      throw std::runtime_error(written.error());
+    }
+  }
+  std::uint64_t tellp() override { return file_.position(); }
+  void seekp(std::uint64_t position) override { file_.seek(position); }
+
+ private:
+  AtomicFile& file_;
+};
+
+/// What is wrong with the layout, or nothing.
+std::string fault_of(const ImageLayout& layout) {
+  if (layout.display.empty() || layout.data.empty()) {
+    return "the picture has no pixel";
+  }
+  if (layout.channels.empty()) {
+    return "the picture has no channel";
+  }
+  std::set<std::string> names;
+  for (const ChannelInfo& channel : layout.channels) {
+    if (channel.name.empty() || !names.insert(channel.name).second) {
+      return "two channels are called '" + channel.name + "', or one has no name";
+    }
+  }
+  return {};
+}
+
+bool half_overflows(const Image& image) {
+  for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
+    if (image.layout().channels[channel].precision == ChannelPrecision::half &&
+        !std::ranges::all_of(image.plane(channel), fits_half)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+class ExrWriter::Implementation {
+ public:
+  Implementation(AtomicFile file, const ImageLayout& layout, const ExrHeader& header)
+      : file_(std::move(file)),
+        stream_(file_),
+        layout_(layout),
+        output_(std::make_unique<Imf::OutputFile>(stream_, to_imf(layout, header), 0)),
+        next_row_(layout.data.y0) {}
+
+  Result<void> write_rows(std::span<const std::span<const float>> planes, int rows) {
+    if (!error_.empty()) {
+      return Failure{error_};
+    }
+    try {
+      write_or_throw(planes, rows);
+    } catch (const std::exception& exception) {
+      error_ = file_.status().ok() ? "cannot write " + file_.path().string() + ": " + exception.what()
+                                   : file_.status().error();
+      file_.abandon();
+      return Failure{error_};
+    }
+    return {};
+  }
+
+  Result<void> commit() {
+    if (!error_.empty()) {
+      return Failure{error_};
+    }
+    if (next_row_ != layout_.data.y1) {
+      error_ = "cannot write " + file_.path().string() + ": rows of the picture are missing";
+      return Failure{error_};
+    }
+    output_.reset();  // writes the table of chunks and swallows what goes wrong: the file has kept it
+    return file_.commit();
+  }
+
+ private:
+  void write_or_throw(std::span<const std::span<const float>> planes, int rows) {
+    const auto width = static_cast<std::size_t>(layout_.data.width());
+    if (rows < 0 || rows > layout_.data.y1 - next_row_ || planes.size() != layout_.channels.size()) {
+      throw std::runtime_error("the rows do not fit the picture");
+    }
+    for (const std::span<const float> plane : planes) {
+      if (plane.size() != width * static_cast<std::size_t>(rows)) {
+        throw std::runtime_error("the rows do not fit the picture");
+      }
+    }
+    for (int first = 0; first < rows; first += band_rows) {
+      const int count = std::min(band_rows, rows - first);
+      write_band(planes, width * static_cast<std::size_t>(first), count);
+    }
+  }
+
+  /// `count` <= band_rows rows, which start at `offset` in each plane.
+  void write_band(std::span<const std::span<const float>> planes, std::size_t offset, int count) {
+    const auto width = static_cast<std::size_t>(layout_.data.width());
+    const std::size_t pixels = width * static_cast<std::size_t>(count);
+    const Imath::V2i origin(layout_.data.x0, next_row_);
+    half_bands_.resize(planes.size());
+    Imf::FrameBuffer buffer;
+    for (std::size_t channel = 0; channel < planes.size(); ++channel) {
+      const ChannelInfo& info = layout_.channels[channel];
+      const std::span<const float> values = planes[channel].subspan(offset, pixels);
+      const bool narrow = info.precision == ChannelPrecision::half;
+      if (narrow) {
+        round_to_half(values, half_bands_[channel], info.name);
+      }
+      const void* data = narrow ? static_cast<const void*>(half_bands_[channel].data())
+                                : static_cast<const void*>(values.data());
+      const std::size_t size = narrow ? sizeof(half) : sizeof(float);
+      buffer.insert(info.name, Imf::Slice::Make(narrow ? Imf::HALF : Imf::FLOAT, data, origin,
+                                                static_cast<std::int64_t>(width), count, size, size * width));
+    }
+    output_->setFrameBuffer(buffer);
+    output_->writePixels(count);
+    next_row_ += count;
+  }
+
+  static void round_to_half(std::span<const float> values, std::vector<half>& rounded,
+                            const std::string& channel) {
+    rounded.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!fits_half(values[i])) {
+        throw std::runtime_error("the value " + std::to_string(values[i]) + " of channel " + channel +
+                                 " is beyond half precision; store it as float");
+      }
+      rounded[i] = half(values[i]);
+    }
+  }
+
+  static constexpr int band_rows = 16;  ///< the rows of one ZIP chunk
+
+  AtomicFile file_;
+  CheckedStream stream_;
+  ImageLayout layout_;
+  std::unique_ptr<Imf::OutputFile> output_;
+  int next_row_;
+  std::string error_;
+  std::vector<std::vector<half>> half_bands_;
+};
+
+ExrWriter::ExrWriter(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+ExrWriter::ExrWriter(ExrWriter&&) noexcept = default;
+ExrWriter& ExrWriter::operator=(ExrWriter&&) noexcept = default;
+ExrWriter::~ExrWriter() = default;
+
+Result<ExrWriter> ExrWriter::open(const std::filesystem::path& path, const ImageLayout& layout,
+                                  const ExrHeader& header) {
+  if (const std::string fault = fault_of(layout); !fault.empty()) {
+    return Failure{"cannot write " + path.string() + ": " + fault};
+  }
+  Result<AtomicFile> file = AtomicFile::create(path);
+  if (!file.ok()) {
+    return file.failure();
+  }
+  try {
+    return ExrWriter(std::make_unique<Implementation>(std::move(file).value(), layout, header));
+  } catch (const std::exception& exception) {
+    const std::string why = exception.what();
+    // The stream's own failures already name the file.
+    return Failure{why.starts_with("cannot write ") ? why : "cannot write " + path.string() + ": " + why};
+  }
+}
+
+Result<void> ExrWriter::write_rows(std::span<const std::span<const float>> planes, int rows) {
+  return implementation_->write_rows(planes, rows);
+}
+
+Result<void> ExrWriter::commit() {
+  return implementation_->commit();
+}
+
+Result<void> write_exr(const std::filesystem::path& path, const Image& image, const ExrHeader& header,
+                       ColourStorage storage) {
+  ImageLayout layout = image.layout();
+  if (storage == ColourStorage::always_float || half_overflows(image)) {
+    for (ChannelInfo& channel : layout.channels) {
+      channel.precision = ChannelPrecision::single;
+    }
+  }
+  Result<ExrWriter> writer = ExrWriter::open(path, layout, header);
+  if (!writer.ok()) {
+    return writer.failure();
+  }
+  std::vector<std::span<const float>> planes;
+  for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
+    planes.push_back(image.plane(channel));
+  }
+  if (Result<void> written = writer.value().write_rows(planes, layout.data.height()); !written.ok()) {
+    return written;
+  }
+  return writer.value().commit();
+}
+
+}  // namespace backlight

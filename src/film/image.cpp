@@ -1,0 +1,49 @@
+#include "backlight/film/image.h"
+
+#include <ImfMultiView.h>
+
+#include <utility>
+
+namespace backlight {
+
+std::string channel_name(std::string_view name, const std::vector<std::string>& views, std::size_t view) {
+  if (views.empty()) {
+    return std::string(name);
+  }
+  return Imf::insertViewName(std::string(name), views, static_cast<int>(view));
+}
+
+std::vector<ChannelInfo> channels_of_views(const std::vector<ChannelInfo>& base,
+                                           const std::vector<std::string>& views) {
+  if (views.empty()) {
+    return base;
+  }
+  std::vector<ChannelInfo> all;
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    for (const ChannelInfo& channel : base) {
+      all.push_back({channel_name(channel.name, views, view), channel.precision});
+    }
+  }
+  return all;
+}
+
+Image::Image(ImageLayout layout, std::vector<std::vector<float>> planes)
+    : layout_(std::move(layout)), planes_(std::move(planes)) {}
+
+Image::Image(ImageLayout layout) : layout_(std::move(layout)) {
+  const std::size_t pixels = layout_.data.empty() ? 0
+                                                  : static_cast<std::size_t>(layout_.data.width()) *
+                                                        static_cast<std::size_t>(layout_.data.height());
+  planes_.assign(layout_.channels.size(), std::vector<float>(pixels));
+}
+
+int Image::find_channel(std::string_view name) const {
+  for (std::size_t channel = 0; channel < layout_.channels.size(); ++channel) {
+    if (layout_.channels[channel].name == name) {
+      return static_cast<int>(channel);
+    }
+  }
+  return -1;
+}
+
+}  // namespace backlight

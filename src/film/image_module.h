@@ -1,0 +1,45 @@
+// The module that reads and writes picture formats other than our own EXR, loaded when first asked for.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "backlight/base/result.h"
+#include "oiio_module.h"
+
+namespace backlight {
+
+/// Red, green, blue interleaved, row after row from the top, as stored: integers scaled to 0..1.
+struct StoredImage {
+  int width = 0;
+  int height = 0;
+  bool integer_samples = false;
+  int sample_bits = 0;
+  bool declared_linear = false;
+  std::vector<float> rgb;
+};
+
+/// libbacklight_oiio.so. Loading takes 0.2 s the first time in a process and nothing later; the library stays
+/// loaded.
+class ImageModule {
+ public:
+  /// Looks in the folder BACKLIGHT_MODULE_PATH of the environment, or without it in the executable's folder,
+  /// ../lib/backlight and ../../lib/backlight. The failure lists where it looked.
+  static Result<ImageModule> load();
+
+  [[nodiscard]] Result<StoredImage> read(const std::filesystem::path& path) const;
+
+  /// `samples`: width * height * channels unsigned integers of 8 or 16 bits, sRGB; channels 1, 3 or 4.
+  [[nodiscard]] Result<std::string> encode_png(const void* samples, int width, int height, int channels,
+                                               int sample_bits) const;
+
+ private:
+  ImageModule() = default;
+  BacklightOiioLoad load_ = nullptr;
+  BacklightOiioEncodePng encode_png_ = nullptr;
+  BacklightOiioFree free_ = nullptr;
+};
+
+}  // namespace backlight

@@ -1,0 +1,166 @@
+// libbacklight_oiio.so: see oiio_module.h. Independent of the rest of the program.
+#include "oiio_module.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+struct FreeMemory {
+  void operator()(void* memory) const { std::free(memory); }
+};
+template <typename T>
+using Memory = std::unique_ptr<T[], FreeMemory>;
+
+template <typename T>
+Memory<T> allocate(std::size_t count) {
+  Memory<T> memory(static_cast<T*>(std::malloc(count * sizeof(T))));
+  if (!memory) {
+    throw std::bad_alloc();
+  }
+  return memory;
+}
+
+/// Runs `work`, its exceptions turned into texts.
+template <typename Work>
+int guarded(char* error, std::size_t error_size, const Work& work) {
+  std::string text = "unknown error";
+  try {
+    work();
+    return 0;
+  } catch (const std::bad_alloc&) {
+    text = "not enough memory";
+  } catch (const std::exception& exception) {
+    text = exception.what();
+  } catch (...) {
+  }
+  if (error_size > 0) {
+    const std::size_t count = std::min(text.size(), error_size - 1);
+    std::memcpy(error, text.data(), count);
+    error[count] = '\0';
+  }
+  return 1;
+}
+
+/// Throws the first line of OpenImageIO's text (the next ones repeat it), or `otherwise` where it gives none.
+[[noreturn]] void raise(const std::string& text, const char* otherwise) {
+  const std::string line = text.substr(0, text.find('\n'));
+  throw std::runtime_error(line.empty() ? otherwise : line);
+}
+
+/// The first of the channels that hold the colour, and their number, 1 or 3.
+std::pair<int, int> colour_channels(const OIIO::ImageSpec& spec) {
+  const auto& names = spec.channelnames;
+  for (std::size_t i = 0; i + 3 <= names.size(); ++i) {
+    if (names[i] == "R" && names[i + 1] == "G" && names[i + 2] == "B") {
+      return {static_cast<int>(i), 3};
+    }
+  }
+  return {0, spec.nchannels >= 3 ? 3 : 1};
+}
+
+/// Turns the picture as a camera's Orientation tag says.
+std::vector<float> upright(OIIO::ImageSpec& spec, std::vector<float> pixels, int channels) {
+  const int orientation = spec.get_int_attribute("Orientation", 1);
+  if (orientation <= 1 || orientation > 8) {
+    return pixels;
+  }
+  OIIO::ImageSpec plain(spec.width, spec.height, channels, OIIO::TypeDesc::FLOAT);
+  plain.attribute("Orientation", orientation);
+  const OIIO::ImageBuf turned = OIIO::ImageBufAlgo::reorient(OIIO::ImageBuf(plain, pixels.data()));
+  spec.width = turned.spec().width;
+  spec.height = turned.spec().height;
+  if (!turned.get_pixels(turned.roi(), OIIO::TypeDesc::FLOAT, pixels.data())) {
+    raise(turned.geterror(), "the picture cannot be turned upright");
+  }
+  return pixels;
+}
+
+void load(const char* path, BacklightOiioImage& image) {
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);  // the colours as they are in the file
+  const auto input = OIIO::ImageInput::open(path, &config);
+  if (!input) {
+    raise(OIIO::geterror(), "the file cannot be opened");
+  }
+  OIIO::ImageSpec spec = input->spec();
+  if (spec.depth > 1 || spec.deep || spec.width <= 0 || spec.height <= 0) {
+    throw std::runtime_error("not a flat picture");
+  }
+  if (spec.full_width != spec.width || spec.full_height != spec.height || spec.full_x != spec.x ||
+      spec.full_y != spec.y) {
+    throw std::runtime_error("only a part of the picture is in the file (its data window is a crop)");
+  }
+  const auto [first, channels] = colour_channels(spec);
+  const std::size_t count = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  std::vector<float> stored(count * static_cast<std::size_t>(channels));
+  // A JPEG that is cut short is filled up with grey, and read "successfully" with an error left to be
+  // fetched.
+  if (!input->read_image(0, 0, first, first + channels, OIIO::TypeDesc::FLOAT, stored.data()) ||
+      input->has_error()) {
+    raise(input->geterror(), "the file is damaged or cut short");
+  }
+  stored = upright(spec, std::move(stored), channels);
+  Memory<float> rgb = allocate<float>(3 * count);
+  for (std::size_t i = 0; i < 3 * count; ++i) {
+    rgb[i] = channels == 3 ? stored[i] : stored[i / 3];
+  }
+  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+  image.width = spec.width;
+  image.height = spec.height;
+  image.integer_samples = spec.format.is_floating_point() ? 0 : 1;
+  image.sample_bits = static_cast<int>(8 * spec.format.basesize());
+  image.declared_linear = space == "Linear" || space == "linear" ? 1 : 0;
+  image.pixels = rgb.release();
+}
+
+void encode_png(const void* samples, int width, int height, int channels, int sample_bits,
+                BacklightOiioBytes& png) {
+  const OIIO::TypeDesc type = sample_bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto output = OIIO::ImageOutput::create("png");
+  if (!output) {
+    raise(OIIO::geterror(), "OpenImageIO has no PNG writer");
+  }
+  if (!output->set_ioproxy(&memory)) {
+    throw std::runtime_error("OpenImageIO cannot write PNG into memory");
+  }
+  OIIO::ImageSpec spec(width, height, channels, type);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  if (!output->open("memory.png", spec) || !output->write_image(type, samples) || !output->close()) {
+    raise(output->geterror(), "the PNG cannot be encoded");
+  }
+  Memory<unsigned char> data = allocate<unsigned char>(bytes.size());
+  std::copy(bytes.begin(), bytes.end(), data.get());
+  png.size = bytes.size();
+  png.data = data.release();
+}
+
+}  // namespace
+
+int backlight_oiio_load_v1(const char* path, BacklightOiioImage* image, char* error, std::size_t error_size) {
+  return guarded(error, error_size, [&] { load(path, *image); });
+}
+
+int backlight_oiio_encode_png_v1(const void* samples, int width, int height, int channels, int sample_bits,
+                                 BacklightOiioBytes* png, char* error, std::size_t error_size) {
+  return guarded(error, error_size, [&] { encode_png(samples, width, height, channels, sample_bits, *png); });
+}
+
+void backlight_oiio_free_v1(void* memory) {
+  std::free(memory);
+}
