@@ -1,0 +1,39 @@
+// From a description to the scene as it is true at one image.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "backlight/base/diagnostics.h"
+#include "backlight/scene/description.h"
+#include "backlight/scene/resources.h"
+#include "backlight/scene/scene.h"
+
+namespace backlight {
+
+/// Which image, and what the command line says instead of the file. What is empty is taken from the file.
+struct ImageRequest {
+  std::optional<int> frame;    ///< of the animation; the first one by default
+  std::optional<double> time;  ///< scene time in seconds, instead of a frame's
+  std::string camera;          ///< name of a [[camera]]; the first one by default
+  std::optional<std::pair<int, int>> resolution;
+  std::optional<int> samples;
+  std::optional<unsigned> seed;
+  std::optional<std::vector<std::string>> aovs;
+};
+
+/// Evaluates every number for one image, composes the frames, loads what other files hold and builds the
+/// surfaces. Adds what is wrong to `diagnostics`; returns a scene only if they hold no error, those of
+/// reading included.
+///
+/// t = (frame - 1)/fps; without [animation] t = 0. With an explicit time, `frame` is t fps + 1 in an
+/// animation and 1 without.
+std::optional<Scene> compile(const Description& description, const ImageRequest& request,
+                             ResourceCache& cache, Diagnostics& diagnostics);
+
+/// The frame numbers of [animation], or {1}. Empty if the table is wrong, which compile() reports.
+std::vector<int> animation_frames(const Description& description);
+
+}  // namespace backlight

@@ -1,0 +1,56 @@
+// What a scene takes from other files: textures, spectra, star catalogues.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "backlight/base/result.h"
+#include "backlight/colour/upsampling.h"
+#include "backlight/film/texture.h"
+
+namespace backlight {
+
+/// A catalogue's star: angles in degrees.
+struct CatalogueStar {
+  double right_ascension = 0.0;
+  double declination = 0.0;
+  double magnitude = 0.0;
+  double b_minus_v = 0.0;
+};
+
+/// Values by wavelength in nm, as in a file.
+struct SpectrumTable {
+  std::vector<double> wavelengths;
+  std::vector<double> values;
+};
+
+/// Reads a star catalogue: CSV with the header `right_ascension,declination,magnitude,b_minus_v`. Empty lines
+/// and those that begin with # are skipped. An error names the line.
+Result<std::vector<CatalogueStar>> read_stars(const std::filesystem::path& path);
+
+/// Reads a spectrum: CSV of wavelength in nm and value, with or without a header line.
+Result<SpectrumTable> read_spectrum(const std::filesystem::path& path);
+
+/// Keeps what was read, so that the images of an animation share it. Not for several threads at once.
+class ResourceCache {
+ public:
+  Result<std::shared_ptr<const Texture>> texture(const std::filesystem::path& path);
+  Result<std::shared_ptr<const std::vector<CatalogueStar>>> stars(const std::filesystem::path& path);
+  Result<SpectrumTable> spectrum(const std::filesystem::path& path);
+  /// fit_sigmoid(rgb), which takes a while, once for each colour.
+  SigmoidReflectance sigmoid(const LinearRgb& rgb);
+
+ private:
+  using Rgb = std::array<double, 3>;
+  std::map<std::filesystem::path, std::shared_ptr<const Texture>> textures_;
+  std::map<std::filesystem::path, std::shared_ptr<const std::vector<CatalogueStar>>> stars_;
+  std::map<std::filesystem::path, SpectrumTable> spectra_;
+  std::map<Rgb, SigmoidReflectance> sigmoids_;
+};
+
+}  // namespace backlight

@@ -1,0 +1,155 @@
+// The scene as it is true at one image: what the tracer reads. Made by scene/compile.h.
+//
+// Units: lengths in scene units, times multiplied by c (so c = 1), angles in radians, celerities
+// dimensionless. Colours are linear Rec.709 beside their spectra.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "backlight/camera/projection.h"
+#include "backlight/colour/brightness.h"
+#include "backlight/colour/rgb.h"
+#include "backlight/colour/spectrum.h"
+#include "backlight/expression/expression.h"
+#include "backlight/film/texture.h"
+#include "backlight/spacetime/transform.h"
+#include "backlight/surface/surface_set.h"
+
+namespace backlight {
+
+/// The relativistic effects to show. The defaults are nature's.
+struct Effects {
+  bool light_delay = true;
+  bool doppler = true;            ///< the shift of colours
+  BrightnessSwitches brightness;  ///< the searchlight effect, factor by factor
+  friend bool operator==(const Effects&, const Effects&) = default;
+};
+
+/// Other effects in a part of the image. x, y are fractions of the full image, y down; the last region that
+/// contains a sample's point wins.
+struct EffectsRegion {
+  double x0 = 0.0, y0 = 0.0, x1 = 1.0, y1 = 1.0;
+  Effects effects;
+};
+
+/// A colour with its spectrum: `rgb` is the film colour of `spectrum` seen at rest (for a reflectance, under
+/// D65).
+struct Colour {
+  Spectrum spectrum;
+  LinearRgb rgb{0.0};
+};
+
+/// A pattern of two reflectances over the texture coordinates.
+struct Checker {
+  std::array<Colour, 2> colours;
+  double size = 1.0;  ///< edge of a square, in units of the texture coordinates
+};
+
+/// What a surface is made of, in its rest frame.
+struct Material {
+  std::string name;
+  Colour reflectance;                      ///< Lambert, when there is neither texture nor checker
+  std::shared_ptr<const Texture> texture;  ///< reflectance from an image, or null
+  std::optional<double> uv;  ///< of a texture: level at 300 nm and below, see Spectrum::reflectance
+  std::optional<double> ir;  ///< of a texture: level at 890 nm and above
+  std::optional<Checker> checker;
+  double specular = 0.0;    ///< Phong: the share of the light reflected by the lobe
+  double shininess = 50.0;  ///< Phong: the lobe's exponent
+  bool emits = false;
+  Colour emission;  ///< own radiance, at rest to itself
+};
+
+enum class LightKind { point, distant, ambient };
+
+/// A light in its rest frame.
+struct Light {
+  LightKind kind = LightKind::point;
+  std::string name;
+  int frame = 0;                   ///< index of its rest frame
+  Vec3 position{0.0};              ///< point: in that frame's coordinates
+  Vec3 direction{0.0, -1.0, 0.0};  ///< distant: the unit direction in which the light travels, in that frame
+  Colour colour;                   ///< spectrum of unit strength
+  /// Strength as a function of the light's own (frame) time: intensity of a point light, irradiance of a
+  /// distant one, radiance of an ambient one. `strength` when it does not depend on time.
+  double strength = 1.0;
+  bool flickers = false;
+  Expression strength_of_time;    ///< of variables {t, frame, params...}, when it flickers
+  std::vector<double> variables;  ///< the values of its variables for this image; [0] is replaced by own time
+                                  ///< in scene seconds
+};
+
+/// A star: a point at infinity, given in the sky's frame.
+struct Star {
+  Vec3 direction{0.0, 0.0, 1.0};  ///< unit, where it is seen by an observer at rest in the sky's frame
+  double temperature = 6500.0;    ///< kelvin, of the blackbody it is
+  double illuminance = 0.0;       ///< film-Y irradiance (film Y times steradians) at rest
+};
+
+/// What is at infinity behind everything, at rest in its own frame.
+struct Sky {
+  int frame = 0;
+  bool emits = false;
+  Colour radiance;                         ///< uniform: colour or blackbody
+  std::shared_ptr<const Texture> texture;  ///< equirectangular, in the frame's axes, or null
+  double texture_scale = 1.0;
+  std::vector<Star> stars;
+};
+
+/// One object of the file. Copies made by `repeat` share it.
+struct Object {
+  std::string name;
+  int id = 0;        ///< 1, 2, ... in file order
+  int material = 0;  ///< index into Scene::materials
+};
+
+/// One inertial frame with all that is at rest in it.
+struct SceneFrame {
+  std::string name;  ///< as in the file; empty for a frame made by a thing's own velocity
+  InertialFrame motion;
+  SurfaceSet surfaces;
+  std::vector<int> object_of_surface;  ///< index into Scene::objects, by surface index
+};
+
+struct Stereo {
+  double separation = 0.065;  ///< distance of the two eyes, in scene units, along the camera's right
+};
+
+/// The camera during one exposure.
+struct CameraView {
+  std::string name;
+  ExtendedVec3 celerity;     ///< in the world
+  ExtendedEvent event;       ///< the exposure: world coordinates
+  double proper_time = 0.0;  ///< the camera's own time of it (times c)
+  Lens lens;
+  std::optional<Stereo> stereo;
+};
+
+/// What the film asks for.
+struct FilmSettings {
+  int width = 720;
+  int height = 526;
+  int samples = 1;
+  unsigned seed = 0;
+  std::vector<std::string> aovs;  ///< of: Z doppler emissionTime properTime P N objectId
+};
+
+struct Scene {
+  double time = 0.0;   ///< t of the image, in scene seconds: what expressions see
+  double frame = 1.0;  ///< number of the image in the animation; not whole for a time between two of them
+  double c = 1.0;      ///< scene units of length per second; divides reported times
+  std::vector<SceneFrame> frames;  ///< distinct frames; [0] is the world
+  std::vector<Object> objects;
+  std::vector<Material> materials;
+  std::vector<Light> lights;
+  Sky sky;
+  CameraView camera;
+  Effects effects;
+  std::vector<EffectsRegion> regions;
+  FilmSettings film;
+};
+
+}  // namespace backlight

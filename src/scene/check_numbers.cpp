@@ -1,0 +1,78 @@
+#include "check_numbers.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "value_forms.h"
+#include "words.h"
+
+namespace backlight {
+
+void NumberCheck::error(const Place& place, std::string message, std::string hint) {
+  diagnostics_.error(description_.span(place), std::move(message), std::move(hint));
+}
+
+void NumberCheck::number(Node& node, const Key& key) {
+  if (std::holds_alternative<double>(node.value)) return;
+  const std::string* text = node.text();
+  if (text == nullptr) {
+    error(node.place,
+          "'" + std::string(key.name) + "' must be made of numbers, and this is " + kind_words(node));
+    node.value = Invalid{};
+    return;
+  }
+  auto parsed = Expression::parse(*text, description_.variables);
+  if (const auto* wrong = std::get_if<ExpressionError>(&parsed)) {
+    expression_error(node, *wrong);
+    node.value = Invalid{};
+    return;
+  }
+  Expression expression = std::get<Expression>(std::move(parsed));
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    if (expression.uses(i)) used_[i] = true;
+  }
+  node.value = std::move(expression);
+}
+
+// The caret goes to the place within the string, where the string is written as it reads.
+void NumberCheck::expression_error(const Node& node, const ExpressionError& wrong) {
+  Place place = node.place;
+  const std::string& text = *node.text();
+  const bool ascii = std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c < 127; });
+  const bool plain = ascii && text.find_first_of("\\\"") == std::string::npos;
+  if (plain && place.length == text.size() + 2) {
+    place.column += static_cast<std::uint32_t>(wrong.column);
+    place.length = static_cast<std::uint32_t>(std::max(1, wrong.length));
+  } else if (place.length == text.size()) {  // an override without quotes
+    place.column += static_cast<std::uint32_t>(wrong.column - 1);
+    place.length = static_cast<std::uint32_t>(std::max(1, wrong.length));
+  }
+  error(place, wrong.message, wrong.hint);
+}
+
+void NumberCheck::numbers(Node& node, const Key& key, const ValueForm& form) {
+  const std::size_t size = node.array()->size();
+  const bool wrong_size = form.count == 0 ? size == 0 : size != static_cast<std::size_t>(form.count);
+  if (wrong_size) {
+    error(node.place,
+          "'" + std::string(key.name) + "' must be " + form_words(form) + ", not of " + std::to_string(size));
+    node.value = Invalid{};
+    return;
+  }
+  for (Node& element : *node.array()) number(element, key);
+}
+
+void NumberCheck::colours(Node& node, const Key& key, const ValueForm& form) {
+  NodeArray& array = *node.array();
+  const bool lists =
+      std::all_of(array.begin(), array.end(), [](const Node& n) { return n.array() != nullptr; });
+  if (!lists || array.size() != static_cast<std::size_t>(form.count)) {
+    error(node.place,
+          "'" + std::string(key.name) + "' must be " + form_words(form) + ", each [red, green, blue]");
+    node.value = Invalid{};
+    return;
+  }
+  for (Node& colour : array) numbers(colour, key, {ValueKind::numbers, 3, {}});
+}
+
+}  // namespace backlight

@@ -1,0 +1,36 @@
+// The check of numbers and arrays of them. Strings become expressions here.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "backlight/base/diagnostics.h"
+#include "backlight/scene/description.h"
+#include "backlight/scene/keys.h"
+
+namespace backlight {
+
+/// Checks values against the forms of numbers. What is wrong is reported and becomes Invalid.
+class NumberCheck {
+ public:
+  /// The description's variables are those of every expression.
+  NumberCheck(const Description& description, Diagnostics& diagnostics)
+      : description_(description), diagnostics_(diagnostics), used_(description.variables.size(), false) {}
+
+  void number(Node& node, const Key& key);
+  void numbers(Node& node, const Key& key, const ValueForm& form);
+  void colours(Node& node, const Key& key, const ValueForm& form);
+
+  /// For each variable, whether any expression so far uses it.
+  [[nodiscard]] const std::vector<bool>& used() const { return used_; }
+
+ private:
+  void error(const Place& place, std::string message, std::string hint = {});
+  void expression_error(const Node& node, const ExpressionError& wrong);
+
+  const Description& description_;
+  Diagnostics& diagnostics_;
+  std::vector<bool> used_;
+};
+
+}  // namespace backlight

@@ -1,0 +1,213 @@
+#include "backlight/scene/compile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "compile_parts.h"
+#include "words.h"
+
+namespace backlight {
+namespace {
+
+// Parameters in the order in which they use each other.
+void evaluate_parameters(ImageValues& values) {
+  const Entry* parameters = find(values.description.root, "params");
+  for (const std::size_t i : values.description.parameter_order) {
+    const Entry* entry = find(parameters->node, values.description.variables[i]);
+    if (entry == nullptr) continue;
+    const Node& node = entry->node;
+    if (const auto* number = std::get_if<double>(&node.value)) values.variables[i] = *number;
+    if (const auto* expression = std::get_if<Expression>(&node.value)) {
+      values.variables[i] = expression->evaluate(values.variables);
+    }
+  }
+}
+
+void check_parameters(ImageValues& values) {
+  const Entry* parameters = find(values.description.root, "params");
+  for (const std::size_t i : values.description.parameter_order) {
+    const Entry* entry = find(parameters->node, values.description.variables[i]);
+    if (entry == nullptr || std::isfinite(values.variables[i])) continue;
+    values.error(entry->node.place,
+                 "the parameter '" + entry->name + "' is " + number_text(values.variables[i]) +
+                     " at t = " + number_text(values.variables[0]) + ", which is not a finite number");
+    values.variables[i] = 0.0;
+  }
+}
+
+ImageValues variables_without_time(const Description& description, Diagnostics& diagnostics) {
+  ImageValues values{description, std::vector<double>(description.variables.size(), 0.0), diagnostics};
+  values.variables[0] = values.variables[1] = std::numeric_limits<double>::quiet_NaN();
+  evaluate_parameters(values);
+  return values;
+}
+
+struct Animation {
+  double fps = 25.0;
+  int first = 1;
+  int last = 1;
+  bool written = false;
+};
+
+// t depends on it, so that it cannot depend on t: with t = NaN whatever does is NaN.
+Animation read_animation(const Description& description, Diagnostics& diagnostics) {
+  Animation animation;
+  const Entry* entry = find(description.root, "animation");
+  if (entry == nullptr) return animation;
+  animation.written = true;
+  ImageValues values = variables_without_time(description, diagnostics);
+  const TableView table = TableView::top(values, "animation");
+  animation.fps = table.number("fps");
+  const std::vector<double> frames = table.numbers("frames");
+  if (frames[0] > frames[1]) {
+    table.error("frames", "'frames' is empty: the first frame number, " + number_text(frames[0]) +
+                              ", is after the last, " + number_text(frames[1]));
+  }
+  animation.first = static_cast<int>(frames[0]);
+  animation.last = static_cast<int>(frames[1]);
+  return animation;
+}
+
+void set_time(ImageValues& values, const ImageRequest& request, const Animation& animation) {
+  double frame = request.frame.value_or(animation.first);
+  double t = animation.written ? (frame - 1.0) / animation.fps : 0.0;
+  if (request.time) {
+    t = *request.time;
+    if (!request.frame) frame = animation.written ? t * animation.fps + 1.0 : 1.0;
+  }
+  values.variables[0] = t;
+  values.variables[1] = frame;
+}
+
+Effects read_effects(const TableView& table, Effects effects) {
+  if (table.has("light_delay")) effects.light_delay = table.boolean("light_delay");
+  if (table.has("doppler")) effects.doppler = table.boolean("doppler");
+  BrightnessSwitches& on = effects.brightness;
+  if (table.has_valid("searchlight")) {
+    const std::string mode = table.text("searchlight");
+    on.photon_energy = on.solid_angle = mode != "off";
+    on.arrival_rate = mode == "exact"   ? ArrivalRate::exact
+                      : mode == "paper" ? ArrivalRate::dilation
+                                        : ArrivalRate::off;
+  }
+  if (table.has("energy")) on.photon_energy = table.boolean("energy");
+  if (table.has_valid("rate")) {
+    const std::string rate = table.text("rate");
+    on.arrival_rate = rate == "exact"      ? ArrivalRate::exact
+                      : rate == "dilation" ? ArrivalRate::dilation
+                                           : ArrivalRate::off;
+  }
+  if (table.has("solid_angle")) on.solid_angle = table.boolean("solid_angle");
+  return effects;
+}
+
+void check_aovs(const std::vector<std::string>& names, Diagnostics& diagnostics) {
+  const Key& key = *find_key(*find_table("film"), "aovs");
+  const std::vector<std::string> known(key.choices.begin(), key.choices.end());
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    std::string hint = did_you_mean(name, known);
+    if (hint.empty()) hint = "it is one of " + listed(known);
+    diagnostics.error({}, "there is no AOV '" + name + "'", hint);
+  }
+}
+
+void check_request(const ImageRequest& request, Diagnostics& diagnostics) {
+  const KeyTable& film = *find_table("film");
+  const auto check = [&](std::string_view name, double value) {
+    const Range& range = find_key(film, name)->range;
+    if (range.contains(value)) return;
+    diagnostics.error({}, "'" + std::string(name) + "' is " + number_text(value) +
+                              " on the command line, but must be " + range.words());
+  };
+  if (request.resolution) {
+    check("resolution", request.resolution->first);
+    check("resolution", request.resolution->second);
+  }
+  if (request.samples) check("samples", *request.samples);
+  if (request.aovs) check_aovs(*request.aovs, diagnostics);
+  if (request.time && !std::isfinite(*request.time))
+    diagnostics.error({}, "the time must be a finite number");
+}
+
+}  // namespace
+
+void compile_effects(Compilation& c) {
+  const TableView table = TableView::top(c.values, "effects");
+  c.scene.effects = read_effects(table, {});
+  const Node* regions = table.node_of("region");
+  if (regions == nullptr || regions->array() == nullptr) return;
+  for (const Node& node : *regions->array()) {
+    const TableView region(c.values, &node, *find_table("effects.region"));
+    const Effects effects = read_effects(region, c.scene.effects);
+    if (!region.complete()) continue;
+    const std::size_t errors = c.values.diagnostics.error_count();
+    const std::vector<double> r = region.numbers("rect");
+    if (c.values.diagnostics.error_count() == errors && (r[0] >= r[2] || r[1] >= r[3])) {
+      region.error("rect", "'rect' is empty", "it is [x0, y0, x1, y1] with x0 < x1 and y0 < y1");
+    }
+    c.scene.regions.push_back({r[0], r[1], r[2], r[3], effects});
+  }
+}
+
+void compile_film(Compilation& c) {
+  const TableView table = TableView::top(c.values, "film");
+  FilmSettings& film = c.scene.film;
+  const std::vector<double> size = table.numbers("resolution");
+  film.width = static_cast<int>(size[0]);
+  film.height = static_cast<int>(size[1]);
+  film.samples = static_cast<int>(table.number("samples"));
+  film.seed = static_cast<unsigned>(table.number("seed"));
+  if (const Node* aovs = table.node_of("aovs"); aovs != nullptr && aovs->array() != nullptr) {
+    for (const Node& name : *aovs->array()) {
+      if (name.text() != nullptr) film.aovs.push_back(*name.text());
+    }
+  }
+  const ImageRequest& request = c.request;
+  check_request(request, c.values.diagnostics);
+  if (request.resolution) std::tie(film.width, film.height) = *request.resolution;
+  film.samples = request.samples.value_or(film.samples);
+  film.seed = request.seed.value_or(film.seed);
+  if (request.aovs) film.aovs = *request.aovs;
+  std::vector<std::string> once;
+  for (const std::string& name : film.aovs) {
+    if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
+  }
+  film.aovs = once;
+}
+
+std::vector<int> animation_frames(const Description& description) {
+  Diagnostics ignored;
+  const Animation animation = read_animation(description, ignored);
+  std::vector<int> frames;
+  for (int i = animation.first; i <= animation.last && !ignored.has_errors(); ++i) frames.push_back(i);
+  return frames;
+}
+
+std::optional<Scene> compile(const Description& description, const ImageRequest& request,
+                             ResourceCache& cache, Diagnostics& diagnostics) {
+  Scene scene;
+  ImageValues values{description, std::vector<double>(description.variables.size(), 0.0), diagnostics};
+  set_time(values, request, read_animation(description, diagnostics));
+  evaluate_parameters(values);
+  check_parameters(values);
+  scene.time = values.variables[0];
+  scene.frame = values.variables[1];
+  scene.c = TableView(values, &description.root, *find_table("")).number("c");
+
+  Frames frames(values, scene.c, scene.frames);
+  Compilation parts{values, request, cache, scene, frames};
+  compile_film(parts);
+  compile_camera(parts);
+  compile_objects(parts);
+  compile_lights(parts);
+  compile_sky(parts);
+  compile_effects(parts);
+  if (diagnostics.has_errors()) return std::nullopt;
+  for (SceneFrame& frame : scene.frames) frame.surfaces.build();
+  return scene;
+}
+
+}  // namespace backlight

@@ -1,0 +1,82 @@
+#include <limits>
+
+#include "compile_parts.h"
+
+namespace backlight {
+namespace {
+
+// A spectrum outright is scaled to film Y 1, as the others are.
+Colour normalised_light(const TableView& table, const Spectrum& spectrum) {
+  const LinearRgb rgb = film_colour(spectrum);
+  const double y = luminance(rgb);
+  if (!(y > 0.0)) {
+    table.error("spectrum", "this spectrum has no visible light, by which its strength is measured");
+    return white_light();
+  }
+  return {spectrum.scaled(1.0 / y), rgb / y};
+}
+
+Colour read_colour(const TableView& table, ResourceCache& cache) {
+  const std::string_view given = table.one_of({"temperature", "color", "spectrum"});
+  if (given == "temperature") {
+    if (const auto kelvin = table.optional_number("temperature")) return blackbody_light(*kelvin);
+  } else if (given == "color") {
+    return coloured_light(table.vector("color"));
+  } else if (given == "spectrum") {
+    const auto spectrum = read_spectrum_key(table, cache, std::numeric_limits<double>::infinity());
+    if (spectrum) return normalised_light(table, *spectrum);
+  }
+  return white_light();
+}
+
+// In a strength, t is the light's own time; parameters keep their values of the image.
+void read_strength(const TableView& table, std::string_view key, Light& light) {
+  const Node* written = table.node_of(key);
+  const auto* expression = written != nullptr ? std::get_if<Expression>(&written->value) : nullptr;
+  light.variables = table.values().variables;
+  if (expression == nullptr || !expression->uses(0)) {
+    light.strength = table.number(key);
+    return;
+  }
+  light.flickers = true;
+  light.strength_of_time = *expression;
+  light.strength = expression->evaluate(light.variables);
+}
+
+void compile_light(Compilation& c, const Node& node) {
+  const TableView table(c.values, &node, *find_table("light"));
+  Light light;
+  light.name = table.text("name");
+  light.colour = read_colour(table, c.cache);
+  const RestPlace place = c.frames.rest_of(table, table.vector("position"));
+  light.frame = place.frame;
+  light.position = place.position;
+  if (const Node* type = table.node_of("type"); type != nullptr && !type->valid()) return;
+  const std::string type = table.text("type");
+  if (type == "distant") {
+    light.kind = LightKind::distant;
+    if (table.has_valid("direction")) {
+      const Vec3 direction = table.vector("direction");
+      const double length = glm::length(direction);
+      if (length == 0.0) table.error("direction", "'direction' is zero: it points nowhere");
+      light.direction = direction / length;
+    }
+    read_strength(table, "irradiance", light);
+  } else if (type == "ambient") {
+    light.kind = LightKind::ambient;
+    read_strength(table, "radiance", light);
+  } else {
+    read_strength(table, "intensity", light);
+  }
+  c.scene.lights.push_back(std::move(light));
+}
+
+}  // namespace
+
+void compile_lights(Compilation& c) {
+  const Entry* lights = find(c.values.description.root, "light");
+  if (lights == nullptr || lights->node.array() == nullptr) return;
+  for (const Node& node : *lights->node.array()) compile_light(c, node);
+}
+
+}  // namespace backlight

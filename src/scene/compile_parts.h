@@ -1,0 +1,27 @@
+// The parts of a scene, each compiled from its tables.
+#pragma once
+
+#include "backlight/scene/compile.h"
+#include "materials.h"
+#include "motion.h"
+#include "values.h"
+
+namespace backlight {
+
+/// What the parts share while one image is compiled.
+struct Compilation {
+  ImageValues& values;
+  const ImageRequest& request;
+  ResourceCache& cache;
+  Scene& scene;
+  Frames& frames;
+};
+
+void compile_film(Compilation& c);
+void compile_camera(Compilation& c);  ///< after the film, whose size the lens takes
+void compile_objects(Compilation& c);
+void compile_lights(Compilation& c);
+void compile_sky(Compilation& c);
+void compile_effects(Compilation& c);
+
+}  // namespace backlight

@@ -1,0 +1,25 @@
+#include "backlight/scene/description.h"
+
+#include <algorithm>
+
+namespace backlight {
+
+const Entry* find(const Node& table, std::string_view name) {
+  const NodeTable* entries = table.table();
+  if (entries == nullptr) return nullptr;
+  const auto found =
+      std::find_if(entries->begin(), entries->end(), [&](const Entry& e) { return e.name == name; });
+  return found == entries->end() ? nullptr : &*found;
+}
+
+Entry* find(Node& table, std::string_view name) {
+  return const_cast<Entry*>(find(static_cast<const Node&>(table), name));  // the table itself is not const
+}
+
+SourceSpan Description::span(const Place& place) const {
+  if (place.line == 0 || place.source >= sources.size()) return {};
+  return {sources[place.source], static_cast<int>(place.line), static_cast<int>(place.column),
+          static_cast<int>(place.length)};
+}
+
+}  // namespace backlight

@@ -1,0 +1,147 @@
+// The keys of what shines, and of what is shown of it: docs/scene-reference.md is made from this text.
+#include "key_builders.h"
+
+namespace backlight::key_builders {
+namespace {
+
+KeyTable light() {
+  KeyTable table{
+      "light",
+      "[[light]]",
+      "A light, at rest in its frame. Its strength may be an expression of `t`, which is then the light's "
+      "own time: a "
+      "flickering lamp. At most one of `temperature`, `color` and `spectrum` is given; without them it is "
+      "D65, white.",
+      {text("name", "For error messages and `-D light.NAME.key=value`."),
+       choice("type", std::string("point"), {"point", "distant", "ambient"},
+              "`point`: a lamp without size. `distant`: parallel light from infinity. `ambient`: the same "
+              "irradiance on "
+              "every surface, in the surface's own rest frame (a convenience; no such light exists)."),
+       numbers("position", 3, std::vector<double>{0, 0, 0}, "length", "Where it is."),
+       number("temperature", Nothing{}, "K", "A blackbody's light, of the strength given.", above(0)),
+       numbers("color", 3, Nothing{}, "", "Linear red, green, blue (Rec.709), multiplied by the strength.",
+               at_least(0)),
+       structured("spectrum", {{ValueKind::table, 0, "spectrum"}, {ValueKind::path}},
+                  "Relative power by wavelength, scaled so that its film Y is the strength: a table, or a "
+                  "CSV file of "
+                  "wavelengths in nm and values. Outside the given wavelengths the end values are kept.")},
+      "type"};
+  add_motion_or_frame(table.keys);
+  return table;
+}
+
+std::vector<KeyTable> light_types() {
+  return {{"light.point",
+           "[[light]]",
+           "A white surface facing it at distance r, at rest, has film Y = intensity/(π r²).",
+           {number("intensity", 1.0, "film Y · length²", "Radiant intensity.", at_least(0))},
+           ""},
+          {"light.distant",
+           "[[light]]",
+           "A white surface facing it, at rest to it, has film Y = irradiance/π.",
+           {numbers("direction", 3, Required{}, "", "Where its light travels to; of any length but zero."),
+            number("irradiance", 1.0, "film Y", "Irradiance of a surface that faces it.", at_least(0))},
+           ""},
+          {"light.ambient",
+           "[[light]]",
+           "A white surface has film Y = radiance from it.",
+           {number("radiance", 1.0, "film Y", "Radiance from every side.", at_least(0))},
+           ""}};
+}
+
+KeyTable background() {
+  KeyTable table{
+      "background",
+      "[background]",
+      "What is at infinity in every direction, at rest in its frame; black without `color`, `texture` or "
+      "`temperature`, of which at most one is given.",
+      {numbers("color", 3, Nothing{}, "", "Radiance: linear red, green, blue (Rec.709).", at_least(0)),
+       structured("texture", {{ValueKind::path}},
+                  "An equirectangular image of radiances: the middle of it is seen along +z, the upper edge "
+                  "along +y, the right half towards -x, which is to the right of a viewer who looks along "
+                  "+z with y up."),
+       number("temperature", Nothing{}, "K", "A blackbody's radiance of film Y 1 at rest.", above(0)),
+       number("radiance", 1.0, "film Y", "Multiplies the three above.", at_least(0)),
+       structured("stars", {{ValueKind::path}, {ValueKind::table, 0, "background.stars"}},
+                  "Stars at infinity, besides. A path is short for `{ file = path }`.")},
+      ""};
+  add_motion_or_frame(table.keys);
+  return table;
+}
+
+KeyTable stars() {
+  return {
+      "background.stars",
+      "stars = \"FILE\" or stars = { ... }",
+      "Stars, from a catalogue (`file`) or made up (`count`). A catalogue is a CSV file with the header "
+      "`right_ascension,declination,magnitude,b_minus_v` (degrees, degrees, visual magnitude, colour index). "
+      "The "
+      "north pole is +y; right ascension 0 on the equator is seen along +z and 90 degrees along +x: the sky "
+      "as it "
+      "is seen from the Earth, not its mirror image. A star is a blackbody at the temperature of its colour "
+      "index.",
+      {structured("file", {{ValueKind::path}}, "The catalogue."),
+       number(
+           "count", Nothing{}, "",
+           "How many made-up stars: evenly spread over the sky, ten times as many for every two magnitudes "
+           "fainter, down to magnitude 6.5.",
+           whole(1, 1e7)),
+       number("seed", 0.0, "", "Another number gives other made-up stars.", whole(0, 4294967295.0)),
+       number("brightness", 1.0, "",
+              "With 1, a star of magnitude 0 has an illuminance of 1e-6 film Y · sr: film Y 1 in a pixel of "
+              "1e-6 sr. A magnitude more is a factor 10^-0.4.",
+              at_least(0))},
+      ""};
+}
+
+std::vector<Key> effect_keys() {
+  return {
+      boolean("light_delay", true,
+              "Light takes time to reach the camera. Without it, everything is seen where it is now in the "
+              "camera's frame, without any change of colour or brightness on the way to the camera."),
+      boolean("doppler", true, "Colours are shifted."),
+      choice("searchlight", std::string("exact"), {"exact", "paper", "off"},
+             "The change of brightness. `exact`: D⁴, nature's. `paper`: D · γ · D², which counts time "
+             "dilation alone "
+             "in the rate of arrival. `off`: none. It sets the three keys below, each of which may be given "
+             "besides."),
+      boolean("energy", Nothing{}, "The factor D: photon energy."),
+      choice("rate", Nothing{}, {"exact", "dilation", "off"}, "The factor D, or γ, or 1: rate of arrival."),
+      boolean("solid_angle", Nothing{}, "The factor D²: aberration of solid angle.")};
+}
+
+KeyTable effects() {
+  KeyTable table{"effects", "[effects]", "Which effects are shown. The defaults are nature's.", effect_keys(),
+                 ""};
+  table.keys.push_back(structured("region", {{ValueKind::tables, 0, "effects.region"}},
+                                  "Other effects in a part of the image."));
+  return table;
+}
+
+KeyTable region() {
+  KeyTable table{
+      "effects.region",
+      "[[effects.region]]",
+      "Other effects in a part of the image. Keys that are not given are those of `[effects]`. Where regions "
+      "overlap, the last one counts.",
+      {numbers("rect", 4, Required{}, "",
+               "x0, y0, x1, y1: left, upper, right and lower edge as fractions of the image.",
+               between(0, 1))},
+      ""};
+  for (Key& key : effect_keys()) {
+    key.value = Nothing{};
+    table.keys.push_back(std::move(key));
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<KeyTable> light_tables() {
+  std::vector<KeyTable> tables{light()};
+  for (KeyTable& type : light_types()) tables.push_back(std::move(type));
+  for (const KeyTable& table : {background(), stars(), effects(), region()}) tables.push_back(table);
+  return tables;
+}
+
+}  // namespace backlight::key_builders

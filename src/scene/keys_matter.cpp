@@ -1,0 +1,184 @@
+// The keys of what there is to be seen: docs/scene-reference.md is made from this text.
+#include "key_builders.h"
+
+namespace backlight::key_builders {
+namespace {
+
+KeyTable frame() {
+  KeyTable table{
+      "frame",
+      "[frame.NAME]",
+      "A named rest frame: its axes are the world's carried by the pure boost to its velocity. `\"world\"` "
+      "always exists.",
+      {},
+      ""};
+  add_motion(table.keys);
+  table.keys.push_back(numbers("origin", 3, std::vector<double>{0, 0, 0}, "length",
+                               "Where the frame's own origin is at the frame's time 0."));
+  table.keys.push_back(number("origin_time", 0.0, "s", "When that is."));
+  table.keys.push_back({"within",
+                        {{ValueKind::reference, 0, "frame"}},
+                        std::string("world"),
+                        "",
+                        "The frame in whose coordinates the velocity, `origin` and `origin_time` are given.",
+                        {},
+                        {}});
+  return table;
+}
+
+KeyTable material() {
+  return {
+      "material",
+      "[material.NAME] or material = { ... }",
+      "What a surface is made of, in its rest frame: a Lambert reflector of one of `color`, `texture`, "
+      "`checker` "
+      "and `spectrum` (without any of them, a grey of 0.8), with a Phong lobe, and with light of its own.",
+      {numbers("color", 3, Nothing{}, "", "Reflectance: linear red, green, blue (Rec.709).", between(0, 1)),
+       structured("texture", {{ValueKind::path}},
+                  "An image file of reflectances, over the shape's texture coordinates."),
+       structured("checker", {{ValueKind::table, 0, "material.checker"}}, "A pattern of two reflectances."),
+       structured(
+           "spectrum", {{ValueKind::table, 0, "spectrum"}, {ValueKind::path}},
+           "Reflectance by wavelength: a table, or a CSV file of wavelengths in nm and values. Outside the "
+           "given wavelengths the end values are kept."),
+       number("uv", Nothing{}, "",
+              "Reflectance in the ultraviolet, which the Doppler effect may bring into view. Without it, "
+              "that of "
+              "the violet end is kept.",
+              between(0, 1)),
+       number("ir", Nothing{}, "", "Reflectance in the infrared; without it, that of the red end is kept.",
+              between(0, 1)),
+       number("specular", 0.0, "", "The share of the light that the Phong lobe reflects.", between(0, 1)),
+       number("shininess", 50.0, "", "The exponent of the Phong lobe.", above(0)),
+       number("emission", 0.0, "film Y", "Own radiance, added to what is reflected.", at_least(0)),
+       number("temperature", Nothing{}, "K", "The emission is a blackbody's of this temperature.", above(0)),
+       numbers("emission_color", 3, Nothing{}, "", "The emission's color, which `emission` multiplies.",
+               at_least(0))},
+      ""};
+}
+
+KeyTable checker() {
+  return {"material.checker",
+          "checker = { ... }",
+          "Squares of two colors in turn, over the shape's texture coordinates.",
+          {{"colors",
+            {{ValueKind::colours, 2}},
+            Required{},
+            "",
+            "Two reflectances, each `[red, green, blue]`: `[[1, 1, 1], [0.1, 0.1, 0.1]]`.",
+            between(0, 1),
+            {}},
+           number("size", 1.0, "texture coordinates",
+                  "Edge of a square. A plane's texture coordinates are lengths; the others go from 0 to 1.",
+                  above(0))},
+          ""};
+}
+
+KeyTable spectrum() {
+  return {"spectrum",
+          "spectrum = { ... }",
+          "Values by wavelength, joined by straight lines.",
+          {numbers("wavelengths", 0, Required{}, "nm", "In rising order.", above(0)),
+           numbers("values", 0, Required{}, "", "One for each wavelength.", at_least(0))},
+          ""};
+}
+
+KeyTable object() {
+  KeyTable table{
+      "object",
+      "[[object]]",
+      "A surface, at rest in its frame. With a velocity of its own it makes its own rest frame, whose origin "
+      "it sits "
+      "at and which passes `position` at world time 0. Sizes are always rest-frame sizes. Surfaces are "
+      "two-sided.",
+      {text("name",
+            "For error messages, `-D object.NAME.key=value` and the list that `backlight check` gives."),
+       {"shape",
+        {{ValueKind::choice}},
+        Required{},
+        "",
+        "Which surface; its own keys are in the tables below.",
+        {},
+        {"sphere", "box", "cylinder", "cone", "torus", "disk", "plane", "quadric"}},
+       numbers("position", 3, std::vector<double>{0, 0, 0}, "length", "Where its centre is."),
+       numbers("rotate", 3, std::vector<double>{0, 0, 0}, "degrees",
+               "Turned about the x axis, then about y, then about z (the frame's axes)."),
+       {"scale",
+        {{ValueKind::number}, {ValueKind::numbers, 3}},
+        1.0,
+        "",
+        "Stretched along its own axes before it is turned: a number or `[x, y, z]`, not zero.",
+        {},
+        {}},
+       structured("material", {{ValueKind::reference, 0, "material"}, {ValueKind::table, 0, "material"}},
+                  "The name of a `[material.NAME]`, or its keys; without it, a grey of reflectance 0.8."),
+       structured("repeat", {{ValueKind::table, 0, "object.repeat"}},
+                  "Copies of it, all at rest in the same frame and of the same `objectId`.")},
+      "shape"};
+  add_motion_or_frame(table.keys);
+  return table;
+}
+
+KeyTable repeat() {
+  return {
+      "object.repeat",
+      "repeat = { ... }",
+      "A lattice of copies: the copy i, j, k is displaced by `[i, j, k]` times `step`, counted from 0.",
+      {numbers("count", 3, Required{}, "", "How many along x, y and z.", whole(1, 1e6)),
+       numbers("step", 3, Required{}, "length", "The distance from one to the next, in the frame's axes.")},
+      ""};
+}
+
+Key length(std::string_view name, DefaultValue value, std::string_view meaning, Range range) {
+  return number(name, std::move(value), "length", meaning, range);
+}
+
+std::vector<KeyTable> shapes() {
+  const std::string_view heading = "[[object]]";
+  std::vector<KeyTable> tables;
+  const auto shape = [&](std::string_view name, std::string_view meaning, std::vector<Key> keys) {
+    tables.push_back({name, heading, meaning, std::move(keys), ""});
+  };
+  shape("object.sphere",
+        "A sphere about the origin. Texture: longitude and latitude about y; u = 0.5 along +z, v = 0 at the "
+        "north "
+        "pole (+y).",
+        {length("radius", Required{}, "Radius.", above(0))});
+  shape("object.box",
+        "A box. Texture: each face from 0 to 1, upright on the four sides for a viewer outside.",
+        {numbers("size", 3, Required{}, "length", "Full extents along x, y, z.", above(0))});
+  shape("object.cylinder",
+        "A cylinder about the y axis, with caps. Texture: u around as for the sphere, v from the top down.",
+        {length("radius", Required{}, "Radius.", above(0)),
+         length("height", Required{}, "Full height.", above(0))});
+  shape("object.cone", "A cone about the y axis, with caps. Texture: as the cylinder's.",
+        {length("radius", Required{}, "Radius at the bottom.", at_least(0)),
+         length("top_radius", 0.0, "Radius at the top.", at_least(0)),
+         length("height", Required{}, "Full height.", above(0))});
+  shape("object.torus",
+        "A torus about the y axis. Texture: u around the axis as for the sphere, v around the tube, 0.5 on "
+        "the outer "
+        "equator.",
+        {length("major", Required{}, "Radius of the circle in the middle of the tube.", above(0)),
+         length("minor", Required{}, "Radius of the tube, less than `major`.", above(0))});
+  shape("object.disk", "A flat disk; its normal is y. Texture: the disk fills the middle of the unit square.",
+        {length("radius", Required{}, "Radius.", above(0))});
+  shape("object.plane", "The plane y = 0, infinite. Texture: u = x, v = z, repeating.", {});
+  shape("object.quadric",
+        "c0 x² + c1 y² + c2 z² + c3 xy + c4 xz + c5 yz + c6 x + c7 y + c8 z + c9 = 0, infinite. Texture: as "
+        "the "
+        "plane's.",
+        {numbers("coefficients", 10, Required{}, "", "c0 to c9.")});
+  return tables;
+}
+
+}  // namespace
+
+std::vector<KeyTable> matter_tables() {
+  std::vector<KeyTable> tables{frame(), material(), checker(), spectrum(), object()};
+  for (KeyTable& shape : shapes()) tables.push_back(std::move(shape));
+  tables.push_back(repeat());
+  return tables;
+}
+
+}  // namespace backlight::key_builders

@@ -1,0 +1,132 @@
+// The keys that say what picture is made: docs/scene-reference.md is made from this text.
+#include "key_builders.h"
+
+namespace backlight::key_builders {
+namespace {
+
+KeyTable top() {
+  return {
+      "",
+      "the top of the file",
+      "One scene. Lengths are in scene units, times in seconds of the scene, and `c` ties the two.",
+      {number("c", 1.0, "length/time", "The speed of light.", above(0)),
+       structured(
+           "include", {{ValueKind::paths}},
+           "Files whose `params`, frames, materials, lights and objects are merged into this one, before "
+           "its own. Their other tables are ignored, with a warning. Paths are relative to the including "
+           "file. A parameter of the including file replaces one of the same name in an included file. A "
+           "file that is reached twice is read once."),
+       structured("params", {{ValueKind::parameters, 0, "params"}}, "Numbers with names."),
+       structured("animation", {{ValueKind::table, 0, "animation"}}, "How frame numbers become times."),
+       structured("film", {{ValueKind::table, 0, "film"}}, "The image's size and channels."),
+       structured("camera", {{ValueKind::table, 0, "camera"}, {ValueKind::tables, 0, "camera"}},
+                  "Who looks, from where, and when. A scene to be rendered has at least one."),
+       structured("frame", {{ValueKind::named_tables, 0, "frame"}}, "Rest frames."),
+       structured("material", {{ValueKind::named_tables, 0, "material"}}, "Materials."),
+       structured("light", {{ValueKind::tables, 0, "light"}}, "Lights."),
+       structured("object", {{ValueKind::tables, 0, "object"}}, "Objects."),
+       structured("background", {{ValueKind::table, 0, "background"}}, "What is at infinity."),
+       structured("effects", {{ValueKind::table, 0, "effects"}}, "Which relativistic effects are shown.")},
+      ""};
+}
+
+KeyTable parameters() {
+  return {"params",
+          "[params]",
+          "Numbers with names of your own, usable in every expression. A parameter may use `t`, `frame` and "
+          "other "
+          "parameters, in any order, but not itself.",
+          {},
+          ""};
+}
+
+KeyTable animation() {
+  return {
+      "animation",
+      "[animation]",
+      "Frame number n is the image at the scene time t = (n - 1)/fps. Without this table t = 0.",
+      {number("fps", 25.0, "1/s", "Frames a second of scene time. Does not depend on `t` or `frame`.",
+              above(0)),
+       numbers("frames", 2, std::vector<double>{1, 1}, "",
+               "The first and the last frame number. Do not depend on `t` or `frame`.", whole(-1e6, 1e6))},
+      ""};
+}
+
+KeyTable film() {
+  return {
+      "film",
+      "[film]",
+      "The image: its size, its samples and its channels.",
+      {numbers("resolution", 2, std::vector<double>{720, 526}, "pixels", "Width and height.",
+               whole(1, 65536)),
+       number("samples", 1.0, "", "Samples a pixel; 1 is exactly the pixel's centre.", whole(1, 1048576)),
+       number("seed", 0.0, "", "Another number gives other sample positions.", whole(0, 4294967295.0)),
+       {"aovs",
+        {{ValueKind::choices}},
+        Nothing{},
+        "",
+        "Channels besides the colour, of the ray through the pixel's centre: light-travel distance, Doppler "
+        "factor, world time and own time of the emission, point and normal in the object's rest frame, and "
+        "the "
+        "object's number in the file.",
+        {},
+        {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId"}}},
+      ""};
+}
+
+KeyTable camera() {
+  KeyTable table{
+      "camera",
+      "[camera] or [[camera]]",
+      "An observer with a pinhole camera. Its axes are those of its rest frame, which are the world's "
+      "carried by the "
+      "pure boost. With `frame`, `position` and `time` are that frame's coordinates. With a velocity, its "
+      "world line "
+      "passes `position` at world time 0, which is its own time 0.",
+      {text("name",
+            "Needed to choose among several cameras with `--camera`; the first one is used otherwise."),
+       numbers("position", 3, std::vector<double>{0, 0, 0}, "length", "Where it is at its own time 0."),
+       numbers("look_at", 3, Nothing{}, "length",
+               "Looks along `look_at - position`, read as a direction in the camera's frame."),
+       numbers("direction", 3, std::vector<double>{0, 0, 1}, "",
+               "Looks along this direction of its own frame; of any length but zero. Instead of `look_at`."),
+       numbers("up", 3, std::vector<double>{0, 1, 0}, "",
+               "The image's upward direction, as far as it is perpendicular to the looking direction; not "
+               "parallel "
+               "to that."),
+       number("time", std::string("t"), "s", "The camera's own (proper) time of the exposure."),
+       number("world_time", Nothing{}, "s", "The world's time of the exposure, instead of `time`."),
+       choice("projection", std::string("perspective"),
+              {"perspective", "equirectangular", "mercator", "fisheye"},
+              "`perspective`: straight lines stay straight. `equirectangular`: all directions, longitude "
+              "across and "
+              "latitude down. `mercator`: all longitudes, angles kept. `fisheye`: equidistant, the distance "
+              "from the "
+              "middle is the angle."),
+       number("fov", 60.0, "degrees",
+              "Full horizontal angle of a perspective (less than 180) or a fisheye; the other projections "
+              "show all "
+              "directions and ignore it.",
+              {.least = 0, .greatest = 360, .above_least = true}),
+       structured("stereo", {{ValueKind::table, 0, "camera.stereo"}},
+                  "Two eyes: left and right image in one file.")},
+      ""};
+  add_motion_or_frame(table.keys);
+  return table;
+}
+
+KeyTable stereo() {
+  return {"camera.stereo",
+          "[camera] stereo = { ... }",
+          "Two eyes, to the left and to the right of the camera's position, in its rest frame.",
+          {number("separation", 0.065, "length", "The distance between the eyes.", above(0))},
+          ""};
+}
+
+}  // namespace
+
+std::vector<KeyTable> picture_tables() {
+  return {top(), parameters(), animation(), film(), camera(), stereo()};
+}
+
+}  // namespace backlight::key_builders

@@ -1,0 +1,191 @@
+#include "materials.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace backlight {
+namespace {
+
+constexpr double default_grey = 0.8;
+
+// Finding the exact spectrum of a colour takes about a millisecond; scenes of more colours than this take all
+// of them from the table, whose colours differ by less than can be seen (docs/colour.md).
+constexpr std::size_t most_exact_spectra = 200;
+
+Colour grey(double value) {
+  return {Spectrum::constant(value), LinearRgb{value}};
+}
+
+}  // namespace
+
+std::filesystem::path resolve_path(const ImageValues& values, const Node& written) {
+  return (values.description.folders[written.place.source] / *written.text()).lexically_normal();
+}
+
+std::shared_ptr<const Texture> read_texture(const TableView& table, std::string_view key,
+                                            ResourceCache& cache) {
+  const Node* written = table.node_of(key);
+  if (written == nullptr || written->text() == nullptr) return nullptr;
+  auto texture = cache.texture(resolve_path(table.values(), *written));
+  if (texture.ok()) return texture.value();
+  table.error(key, texture.error());
+  return nullptr;
+}
+
+std::optional<Spectrum> read_spectrum_key(const TableView& table, ResourceCache& cache, double greatest) {
+  const Node* written = table.node_of("spectrum");
+  if (written == nullptr || !written->valid()) return std::nullopt;
+  SpectrumTable points;
+  if (written->text() != nullptr) {
+    auto read = cache.spectrum(resolve_path(table.values(), *written));
+    if (!read.ok()) {
+      table.error("spectrum", read.error());
+      return std::nullopt;
+    }
+    points = std::move(read).value();
+  } else {
+    const TableView keys = table.table("spectrum", "spectrum");
+    if (!keys.has_valid("wavelengths") || !keys.has_valid("values")) return std::nullopt;  // reported before
+    const std::size_t errors = table.values().diagnostics.error_count();
+    points = {keys.numbers("wavelengths"), keys.numbers("values")};
+    if (table.values().diagnostics.error_count() > errors) return std::nullopt;
+  }
+  if (std::any_of(points.values.begin(), points.values.end(), [&](double v) { return v > greatest; })) {
+    table.error("spectrum", "a reflectance must be at most " + number_text(greatest));
+    return std::nullopt;
+  }
+  SpectrumOrError made = Spectrum::tabulated(std::move(points.wavelengths), std::move(points.values));
+  if (!made.spectrum) table.error("spectrum", made.error);
+  return made.spectrum;
+}
+
+Colour white_light() {
+  return {Spectrum::d65(), LinearRgb{1.0}};
+}
+
+Colour blackbody_light(double kelvin) {
+  const Spectrum spectrum = Spectrum::blackbody(kelvin);
+  return {spectrum, film_colour(spectrum)};
+}
+
+Colour coloured_light(const LinearRgb& rgb) {
+  return {Spectrum::illuminant(rgb), rgb};
+}
+
+Colour times(const Colour& light, double strength) {
+  return {light.spectrum.scaled(strength), strength * light.rgb};
+}
+
+Materials::Materials(ImageValues& values, ResourceCache& cache, std::vector<Material>& scene_materials)
+    : values_(values), cache_(cache), materials_(scene_materials) {
+  const Entry* named = find(values.description.root, "material");
+  if (named == nullptr || named->node.table() == nullptr) return;
+  for (const Entry& entry : *named->node.table()) {
+    named_.emplace(entry.name, add({values_, &entry.node, *find_table("material")}, entry.name));
+  }
+}
+
+int Materials::of(const TableView& object) {
+  const Node* written = object.node_of("material");
+  if (written != nullptr && written->table() != nullptr) return add(object.table("material", "material"), "");
+  if (written != nullptr && written->text() != nullptr) {
+    const auto found = named_.find(*written->text());
+    if (found != named_.end()) return found->second;
+  }
+  if (grey_ < 0) grey_ = add({values_, nullptr, *find_table("material")}, "");
+  return grey_;
+}
+
+int Materials::add(const TableView& table, const std::string& name) {
+  materials_.emplace_back();
+  Material& material = materials_.back();
+  material.name = name;
+  read_reflectance(table, material);
+  material.specular = table.number("specular");
+  material.shininess = table.number("shininess");
+  read_emission(table, material);
+  return static_cast<int>(materials_.size()) - 1;
+}
+
+void Materials::read_reflectance(const TableView& table, Material& material) {
+  const std::string_view given = table.one_of({"color", "texture", "checker", "spectrum"});
+  const auto uv = table.optional_number("uv");
+  const auto ir = table.optional_number("ir");
+  material.reflectance = grey(default_grey);
+  if (given.empty() || given == "color") {
+    if (given == "color") material.reflectance.rgb = table.vector("color");
+    pending_.push_back({materials_.size() - 1, -1, uv, ir});
+  } else if (given == "texture") {
+    material.texture = read_texture(table, "texture", cache_);
+    material.uv = uv;
+    material.ir = ir;
+  } else if (given == "checker") {
+    read_checker(table, material);
+    if (material.checker) {
+      for (const int square : {0, 1}) pending_.push_back({materials_.size() - 1, square, uv, ir});
+    }
+  } else if (const auto spectrum = read_spectrum_key(table, cache_, 1.0)) {
+    material.reflectance = {*spectrum, colour_under_d65(*spectrum)};
+    if (uv || ir)
+      table.error(uv ? "uv" : "ir", "'spectrum' already says what is reflected outside the visible");
+  }
+}
+
+void Materials::read_checker(const TableView& table, Material& material) {
+  const TableView keys = table.table("checker", "material.checker");
+  Checker checker;
+  checker.size = keys.number("size");
+  const Node* colours = keys.node_of("colors");
+  if (colours == nullptr || colours->array() == nullptr) return;
+  for (std::size_t i = 0; i < 2; ++i) {
+    checker.colours[i].rgb = keys.vector_at("colors", i);
+  }
+  material.checker = checker;
+}
+
+void Materials::read_emission(const TableView& table, Material& material) {
+  const double emission = table.number("emission");
+  const std::string_view given = table.one_of({"temperature", "emission_color"});
+  if (!given.empty() && !table.has("emission")) {
+    table.error(given, "'" + std::string(given) + "' is that of the emission, and there is none",
+                "add emission = 1, or remove it");
+  }
+  material.emits = emission > 0.0;
+  if (!material.emits) return;
+  Colour light = white_light();
+  if (given == "temperature") {
+    if (const auto kelvin = table.optional_number("temperature")) light = blackbody_light(*kelvin);
+  } else if (given == "emission_color") {
+    light = coloured_light(table.vector("emission_color"));
+  }
+  material.emission = times(light, emission);
+}
+
+void Materials::finish() {
+  const auto colour_of = [&](const Pending& p) -> Colour& {
+    Material& material = materials_[p.material];
+    return p.square < 0 ? material.reflectance
+                        : material.checker->colours[static_cast<std::size_t>(p.square)];
+  };
+  std::set<std::array<double, 3>> colours;
+  for (const Pending& p : pending_) {
+    const LinearRgb& rgb = colour_of(p).rgb;
+    if (colours.size() <= most_exact_spectra) colours.insert({rgb.r, rgb.g, rgb.b});
+  }
+  const bool exact = colours.size() <= most_exact_spectra;
+  for (const Pending& p : pending_) {
+    Colour& colour = colour_of(p);
+    const LinearRgb& rgb = colour.rgb;
+    const bool is_grey = rgb.r == rgb.g && rgb.g == rgb.b;
+    const SigmoidReflectance shape = is_grey ? grey_sigmoid(rgb.r)
+                                     : exact ? cache_.sigmoid(rgb)
+                                             : upsample(rgb);
+    const bool constant = is_grey && !p.uv && !p.ir;
+    colour.spectrum = constant ? Spectrum::constant(rgb.r) : Spectrum::sigmoid_reflectance(shape, p.uv, p.ir);
+  }
+}
+
+}  // namespace backlight

@@ -1,0 +1,149 @@
+#include "motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace backlight {
+namespace {
+
+const std::vector<std::string_view> motion_keys{"velocity", "beta", "gamma", "celerity", "rapidity"};
+
+Extended magnitude(const ExtendedVec3& v) {
+  return sqrt(dot(v, v));
+}
+
+// u = b/√(1 - b²). The speed is shown in the units in which it was written.
+ExtendedVec3 celerity_of_velocity(const TableView& table, std::string_view key, double c) {
+  const ExtendedVec3 written(table.vector(key));
+  const Extended unit = key == "velocity" ? Extended(c) : Extended(1.0);
+  const Extended speed2 = dot(written, written);
+  const Extended rest = unit * unit - speed2;
+  if (rest.hi > 0.0) return (Extended(1.0) / sqrt(rest)) * written;
+  const Vec3 v = written.rounded();
+  const std::string speed = number_text(std::hypot(v.x, v.y, v.z));
+  const std::string name(key);
+  const bool equal = rest.hi == 0.0 && rest.lo == 0.0;
+  std::string message = "|" + name + "| = " + speed + (equal ? " is" : " exceeds") + " the speed of light";
+  if (key == "velocity") message += ", c = " + number_text(c);
+  table.error(key, message,
+              "nothing reaches the speed of light; for very fast things write gamma = ... with along");
+  return {};
+}
+
+// A celerity's size from gamma, celerity or rapidity.
+Extended size_of(const TableView& table, std::string_view key) {
+  const auto value = table.optional_number(key);
+  if (!value) return {};
+  if (key == "celerity") return *value;
+  if (key == "rapidity") return sinh(Extended(*value));
+  const Extended gamma(*value);
+  return sqrt((gamma - 1.0) * (gamma + 1.0));
+}
+
+}  // namespace
+
+bool has_motion(const TableView& table) {
+  for (const std::string_view key : motion_keys) {
+    if (table.has(key)) return true;
+  }
+  return false;
+}
+
+ExtendedVec3 read_celerity(const TableView& table, double c) {
+  const std::string_view key = table.one_of(motion_keys);
+  const bool needs_along = key == "gamma" || key == "celerity" || key == "rapidity";
+  if (!needs_along) {
+    if (table.has("along")) {
+      table.error("along", "'along' goes with gamma, celerity or rapidity, and none of them is given");
+    }
+    return key.empty() ? ExtendedVec3{} : celerity_of_velocity(table, key, c);
+  }
+  const Extended size = size_of(table, key);
+  if (!table.has("along")) {
+    table.error(key, "'" + std::string(key) + "' needs a direction", "add along = [x, y, z]");
+    return {};
+  }
+  if (!table.has_valid("along")) return {};
+  ExtendedVec3 along(table.vector("along"));
+  // Scaled by a power of two, so that no length of `along` over- or underflows when squared.
+  const Vec3 rounded = glm::abs(along.rounded());
+  const double largest = std::max({rounded.x, rounded.y, rounded.z});
+  if (largest == 0.0) {
+    table.error("along", "'along' is zero: it has no direction");
+    return {};
+  }
+  along = Extended(std::ldexp(1.0, std::min(1000, -std::ilogb(largest)))) * along;
+  if (size.hi == 0.0) return {};
+  return (size / magnitude(along)) * along;
+}
+
+std::size_t Frames::Hash::operator()(const InertialFrame& frame) const {
+  std::size_t seed = 0;
+  const auto mix = [&seed](Extended value) {
+    for (const double part : {value.hi, value.lo}) {
+      seed ^= std::hash<double>{}(part) + 0x9e3779b97f4a7c15ULL + (seed << 6U) + (seed >> 2U);
+    }
+  };
+  for (int i = 0; i < 3; ++i) mix(frame.celerity[i]);
+  for (int i = 0; i < 3; ++i) mix(frame.origin.x[i]);
+  mix(frame.origin.t);
+  return seed;
+}
+
+Frames::Frames(ImageValues& values, double c, std::vector<SceneFrame>& scene_frames)
+    : values_(values), c_(c), scene_frames_(scene_frames) {
+  named_.emplace("world", InertialFrame{});
+  index_of(InertialFrame{}, "world");
+  const Entry* frames = find(values.description.root, "frame");
+  if (frames == nullptr || frames->node.table() == nullptr) return;
+  for (const Entry& entry : *frames->node.table()) define(entry.name);
+}
+
+const InertialFrame& Frames::define(const std::string& name) {
+  if (const auto known = named_.find(name); known != named_.end()) return known->second;
+  const Entry* frames = find(values_.description.root, "frame");
+  const Entry* entry = frames != nullptr ? find(frames->node, name) : nullptr;
+  if (entry == nullptr) return named_.at("world");
+  const TableView table(values_, &entry->node, *find_table("frame"));
+  InertialFrame frame;
+  frame.celerity = read_celerity(table, c_);
+  frame.origin.x = ExtendedVec3(table.vector("origin"));
+  frame.origin.t = Extended(c_) * Extended(table.number("origin_time"));
+  // The reader has seen to it that `within` goes round in no circle.
+  const std::string outer = table.text("within");
+  if (outer != "world") frame = within(define(outer), frame);
+  return named_.emplace(name, frame).first->second;
+}
+
+const InertialFrame& Frames::named(const std::string& name) const {
+  const auto found = named_.find(name);
+  return found != named_.end() ? found->second : named_.at("world");
+}
+
+int Frames::index_of(const InertialFrame& frame, const std::string& name) {
+  const auto [there, added] = indices_.emplace(frame, static_cast<int>(scene_frames_.size()));
+  if (added) {
+    scene_frames_.emplace_back();
+    scene_frames_.back().name = name;
+    scene_frames_.back().motion = frame;
+  }
+  return there->second;
+}
+
+RestPlace Frames::rest_of(const TableView& thing, const Vec3& position) {
+  if (!has_motion(thing)) {
+    if (thing.has("along")) read_celerity(thing, c_);  // reports it
+    const std::string name = thing.text("frame");
+    return {index_of(named(name), name), position};
+  }
+  if (thing.has("frame")) {
+    thing.error("frame", "a thing has a frame or a velocity of its own, not both",
+                "remove 'frame', or define a [frame.NAME] with this velocity within it");
+  }
+  const ExtendedVec3 celerity = read_celerity(thing, c_);
+  if (celerity == ExtendedVec3{}) return {0, position};
+  return {index_of({celerity, {Extended(0.0), ExtendedVec3(position)}}, ""), Vec3{0.0}};
+}
+
+}  // namespace backlight

@@ -1,0 +1,108 @@
+#include "backlight/scene/needs.h"
+
+#include <algorithm>
+#include <set>
+
+#include "backlight/colour/observer.h"
+
+namespace backlight {
+namespace {
+
+const ExtendedVec3& celerity_of(const Scene& scene, int frame) {
+  return scene.frames[static_cast<std::size_t>(frame)].motion.celerity;
+}
+
+// How a frame is called: by its name, or by its first object's.
+std::string name_of(const Scene& scene, const SceneFrame& frame) {
+  if (!frame.name.empty()) return "frame '" + frame.name + "'";
+  if (frame.object_of_surface.empty()) return "a frame";
+  const Object& object = scene.objects[static_cast<std::size_t>(frame.object_of_surface.front())];
+  return object.name.empty() ? "object " + std::to_string(object.id) : "object '" + object.name + "'";
+}
+
+std::string name_of(const Scene& scene, const Light& light) {
+  const auto number = static_cast<std::size_t>(&light - scene.lights.data()) + 1;
+  return light.name.empty() ? "light " + std::to_string(number) : "light '" + light.name + "'";
+}
+
+// Whether any part of the image shows a shift of colours: on the way to the camera, and on the way from a
+// light to a surface, which does not depend on light_delay.
+struct Shifts {
+  bool to_camera = false;
+  bool from_light = false;
+};
+
+Shifts shifts_shown(const Scene& scene) {
+  Shifts shifts;
+  const auto add = [&](const Effects& effects) {
+    shifts.to_camera = shifts.to_camera || (effects.doppler && effects.light_delay);
+    shifts.from_light = shifts.from_light || effects.doppler;
+  };
+  add(scene.effects);
+  for (const EffectsRegion& region : scene.regions) add(region.effects);
+  return shifts;
+}
+
+// The first motion that shifts a colour, or empty.
+std::string shifting_motion(const Scene& scene, const Shifts& shown) {
+  const ExtendedVec3& camera = scene.camera.celerity;
+  if (shown.to_camera && scene.sky.emits && celerity_of(scene, scene.sky.frame) != camera) {
+    return "the background moves relative to the camera";
+  }
+  for (const SceneFrame& frame : scene.frames) {
+    if (frame.object_of_surface.empty()) continue;
+    if (shown.to_camera && frame.motion.celerity != camera) {
+      return name_of(scene, frame) + " moves relative to the camera";
+    }
+    for (const Light& light : scene.lights) {
+      if (!shown.from_light || light.kind == LightKind::ambient) continue;
+      if (celerity_of(scene, light.frame) == frame.motion.celerity) continue;
+      return name_of(scene, light) + " and " + name_of(scene, frame) + " move relative to each other";
+    }
+  }
+  return {};
+}
+
+void choose_model(const Scene& scene, Needs& needs) {
+  const std::string all_motion = shifting_motion(scene, {true, true});
+  const std::string shown_motion = shifting_motion(scene, shifts_shown(scene));
+  needs.spectral = !shown_motion.empty();
+  needs.wavelengths = needs.spectral ? default_wavelength_count : 0;
+  if (needs.spectral) {
+    needs.why = shown_motion;
+  } else if (all_motion.empty() && needs.stars > 0 &&
+             celerity_of(scene, scene.sky.frame) != scene.camera.celerity) {
+    needs.why = "only stars shift, and their colours are found once an image";
+  } else if (all_motion.empty()) {
+    needs.why = "nothing moves relative to anything else";
+  } else {
+    needs.why = "the effects show no shift of colours";
+  }
+}
+
+}  // namespace
+
+Needs needs_of(const Scene& scene) {
+  Needs needs;
+  for (const SceneFrame& frame : scene.frames) {
+    if (frame.object_of_surface.empty()) continue;
+    ++needs.frames;
+    if (frame.motion.celerity != scene.camera.celerity) ++needs.moving_frames;
+    needs.surfaces += frame.object_of_surface.size();
+  }
+  needs.objects = scene.objects.size();
+  needs.lights = scene.lights.size();
+  needs.stars = scene.sky.stars.size();
+  std::set<const Texture*> textures;
+  for (const Material& material : scene.materials) textures.insert(material.texture.get());
+  textures.insert(scene.sky.texture.get());
+  textures.erase(nullptr);
+  needs.textures = textures.size();
+  needs.shadow_rays =
+      needs.surfaces > 0 && std::any_of(scene.lights.begin(), scene.lights.end(),
+                                        [](const Light& l) { return l.kind != LightKind::ambient; });
+  choose_model(scene, needs);
+  return needs;
+}
+
+}  // namespace backlight

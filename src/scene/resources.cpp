@@ -1,0 +1,135 @@
+#include "backlight/scene/resources.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "backlight/base/files.h"
+
+namespace backlight {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const std::string_view space = " \t\r";
+  const std::size_t begin = text.find_first_not_of(space);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(space) - begin + 1);
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    fields.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<double> to_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+// A table of finite numbers, with what its first line says if that is not numbers.
+struct CsvTable {
+  std::string header;
+  std::vector<std::vector<double>> rows;
+  std::vector<std::size_t> lines;  // of the rows
+};
+
+Result<CsvTable> read_csv(const std::filesystem::path& path, std::size_t columns) {
+  const auto text = read_file(path);
+  if (!text.ok()) return text.failure();
+  CsvTable table;
+  std::string_view rest = text.value();
+  bool first = true;
+  for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view line = trimmed(rest.substr(0, end));
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    if (line.empty() || line.front() == '#') continue;
+    const std::vector<std::string_view> fields = fields_of(line);
+    std::vector<double> row;
+    for (const std::string_view field : fields) {
+      if (const auto value = to_number(field)) row.push_back(*value);
+    }
+    if (first && row.empty()) {
+      table.header = std::string(line);
+    } else if (row.size() != columns || fields.size() != columns) {
+      return Failure{path.string() + ":" + std::to_string(line_number) + ": expected " +
+                     std::to_string(columns) + " finite numbers with commas between them"};
+    } else {
+      table.rows.push_back(std::move(row));
+      table.lines.push_back(line_number);
+    }
+    first = false;
+  }
+  return table;
+}
+
+}  // namespace
+
+Result<std::vector<CatalogueStar>> read_stars(const std::filesystem::path& path) {
+  const std::string header = "right_ascension,declination,magnitude,b_minus_v";
+  const auto table = read_csv(path, 4);
+  if (!table.ok()) return table.failure();
+  if (table.value().header != header) return Failure{path.string() + ": the first line must be " + header};
+  std::vector<CatalogueStar> stars;
+  for (std::size_t i = 0; i < table.value().rows.size(); ++i) {
+    const std::vector<double>& row = table.value().rows[i];
+    if (std::abs(row[1]) > 90.0) {
+      return Failure{path.string() + ":" + std::to_string(table.value().lines[i]) +
+                     ": the declination must be between -90 and 90 degrees"};
+    }
+    stars.push_back({row[0], row[1], row[2], row[3]});
+  }
+  return stars;
+}
+
+Result<SpectrumTable> read_spectrum(const std::filesystem::path& path) {
+  const auto table = read_csv(path, 2);
+  if (!table.ok()) return table.failure();
+  SpectrumTable spectrum;
+  for (const std::vector<double>& row : table.value().rows) {
+    spectrum.wavelengths.push_back(row[0]);
+    spectrum.values.push_back(row[1]);
+  }
+  return spectrum;
+}
+
+Result<std::shared_ptr<const Texture>> ResourceCache::texture(const std::filesystem::path& path) {
+  if (const auto known = textures_.find(path); known != textures_.end()) return known->second;
+  auto loaded = load_texture(path);
+  if (!loaded.ok()) return loaded.failure();
+  return textures_[path] = std::make_shared<const Texture>(std::move(loaded).value());
+}
+
+Result<std::shared_ptr<const std::vector<CatalogueStar>>> ResourceCache::stars(
+    const std::filesystem::path& path) {
+  if (const auto known = stars_.find(path); known != stars_.end()) return known->second;
+  auto loaded = read_stars(path);
+  if (!loaded.ok()) return loaded.failure();
+  return stars_[path] = std::make_shared<const std::vector<CatalogueStar>>(std::move(loaded).value());
+}
+
+Result<SpectrumTable> ResourceCache::spectrum(const std::filesystem::path& path) {
+  if (const auto known = spectra_.find(path); known != spectra_.end()) return known->second;
+  auto loaded = read_spectrum(path);
+  if (loaded.ok()) spectra_[path] = loaded.value();
+  return loaded;
+}
+
+SigmoidReflectance ResourceCache::sigmoid(const LinearRgb& rgb) {
+  const auto [there, added] = sigmoids_.emplace(Rgb{rgb.r, rgb.g, rgb.b}, SigmoidReflectance{});
+  if (added) there->second = fit_sigmoid(rgb);
+  return there->second;
+}
+
+}  // namespace backlight

@@ -1,0 +1,145 @@
+#include "toml_text.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace backlight {
+namespace {
+
+// The TOML library recurses once for each part of a dotted key, without a limit of its own.
+constexpr int longest_dotted_key = 64;
+
+Place place_of(const toml::source_region& region, std::uint32_t source) {
+  Place place{source, region.begin.line, region.begin.column, 1};
+  if (region.end.line == region.begin.line && region.end.column > region.begin.column) {
+    place.length = region.end.column - region.begin.column;
+  }
+  return place;
+}
+
+Node convert(const toml::node& from, std::uint32_t source);
+
+NodeTable convert_table(const toml::table& from, std::uint32_t source) {
+  NodeTable table;
+  table.reserve(from.size());
+  for (const auto& [key, value] : from) {
+    table.push_back({std::string(key.str()), place_of(key.source(), source), convert(value, source)});
+  }
+  // The library sorts by name; the author's order is the one to report and to number in.
+  std::stable_sort(table.begin(), table.end(), [](const Entry& a, const Entry& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+  return table;
+}
+
+Node convert(const toml::node& from, std::uint32_t source) {
+  Node node;
+  node.place = place_of(from.source(), source);
+  if (const auto* table = from.as_table()) {
+    node.value = convert_table(*table, source);
+  } else if (const auto* array = from.as_array()) {
+    NodeArray elements;
+    elements.reserve(array->size());
+    for (const toml::node& element : *array) elements.push_back(convert(element, source));
+    node.value = std::move(elements);
+  } else if (const auto* text = from.as_string()) {
+    node.value = text->get();
+  } else if (const auto* integer = from.as_integer()) {
+    node.value = static_cast<double>(integer->get());
+  } else if (const auto* real = from.as_floating_point()) {
+    node.value = real->get();
+  } else if (const auto* flag = from.as_boolean()) {
+    node.value = flag->get();
+  } else {
+    node.value = Date{};
+  }
+  return node;
+}
+
+// Counts positions in a text as diagnostics do.
+struct Cursor {
+  std::uint32_t line = 1;
+  std::uint32_t column = 1;
+
+  void pass(char c) {
+    if (c == '\n') {
+      ++line;
+      column = 1;
+    } else if ((static_cast<unsigned char>(c) & 0xC0U) != 0x80U) {
+      ++column;
+    }
+  }
+};
+
+// The place of a key of too many parts: dots with nothing between them that ends a key.
+std::optional<Place> overlong_key(std::string_view text, std::uint32_t source) {
+  Cursor cursor;
+  int dots = 0;
+  char quote = 0;
+  bool comment = false;
+  for (const char c : text) {
+    if (c == '\n') {
+      quote = 0;
+      comment = false;
+    }
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (!comment) {
+      if (c == '"' || c == '\'') quote = c;
+      if (c == '#') comment = true;
+      if (std::string_view("\n#,={}[]").find(c) != std::string_view::npos) dots = 0;
+      if (c == '.' && ++dots >= longest_dotted_key) return Place{source, cursor.line, cursor.column, 1};
+    }
+    cursor.pass(c);
+  }
+  return std::nullopt;
+}
+
+std::string message_of(const toml::parse_error& error) {
+  std::string text(error.description());
+  const std::string_view prefix = "Error while parsing ";
+  if (text.starts_with(prefix)) {
+    const std::size_t colon = text.find(": ");
+    if (colon == std::string::npos) return "not valid TOML: in a " + text.substr(prefix.size());
+    const std::string what = text.substr(prefix.size(), colon - prefix.size());
+    const bool vowel = std::string_view("aeiou").find(what.front()) != std::string_view::npos;
+    return "not valid TOML: " + text.substr(colon + 2) + (vowel ? " (in an " : " (in a ") + what + ")";
+  }
+  return "not valid TOML: " + text;
+}
+
+}  // namespace
+
+std::variant<Node, TomlError> parse_toml(std::string_view text, std::uint32_t source) {
+  if (const auto place = overlong_key(text, source)) {
+    return TomlError{*place, "a dotted key of more than " + std::to_string(longest_dotted_key) + " parts"};
+  }
+  try {
+    const toml::table table = toml::parse(text);
+    return Node{convert_table(table, source), {source, 1, 1, 1}};
+  } catch (const toml::parse_error& error) {
+    return TomlError{place_of(error.source(), source), message_of(error)};
+  }
+}
+
+void move_places(Node& node, std::uint32_t line, int columns) {
+  const auto move = [&](Place& place) {
+    place.column = static_cast<std::uint32_t>(std::max(1, static_cast<int>(place.column) + columns));
+    place.line = line;
+  };
+  move(node.place);
+  if (NodeArray* array = node.array()) {
+    for (Node& element : *array) move_places(element, line, columns);
+  }
+  if (NodeTable* table = node.table()) {
+    for (Entry& entry : *table) {
+      move(entry.place);
+      move_places(entry.node, line, columns);
+    }
+  }
+}
+
+}  // namespace backlight

@@ -1,0 +1,218 @@
+// Lights, materials and the sky: their colours, spectra and strengths.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "backlight/base/files.h"
+#include "backlight/colour/stars.h"
+#include "backlight/scene/compile.h"
+#include "compiled.h"
+
+namespace backlight {
+namespace {
+
+using testing_scenes::camera;
+using testing_scenes::compiled;
+
+Material material_of(const std::string& keys) {
+  return compiled(camera + "[[object]]\nshape = \"plane\"\nmaterial = { " + keys + " }\n").materials.at(0);
+}
+
+Light light_of(const std::string& keys) {
+  return compiled("c = 2\n" + camera + "[[light]]\n" + keys).lights.at(0);
+}
+
+void expect_near(const LinearRgb& a, const LinearRgb& b, double tolerance) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance);
+}
+
+TEST(SceneMaterials, AGreyByDefault) {
+  const Scene scene = compiled(camera + "[[object]]\nshape = \"plane\"\n[[object]]\nshape = \"plane\"\n");
+  ASSERT_EQ(scene.materials.size(), 1U);
+  EXPECT_EQ(scene.materials[0].reflectance.rgb, LinearRgb{0.8});
+  EXPECT_EQ(scene.materials[0].reflectance.spectrum.at(100), 0.8);
+  EXPECT_FALSE(scene.materials[0].emits);
+}
+
+TEST(SceneMaterials, NamedAndInline) {
+  const Scene scene = compiled(camera +
+                               "[material.a]\ncolor = [0.1, 0.2, 0.3]\nspecular = 0.25\nshininess = 7\n"
+                               "[[object]]\nshape = \"plane\"\nmaterial = \"a\"\n"
+                               "[[object]]\nshape = \"plane\"\nmaterial = { color = [0.3, 0.2, 0.1] }\n"
+                               "[[object]]\nshape = \"plane\"\nmaterial = \"a\"\n");
+  const auto material = [&](std::size_t object) {
+    return scene.materials[static_cast<std::size_t>(scene.objects[object].material)];
+  };
+  EXPECT_EQ(material(0).reflectance.rgb, (LinearRgb{0.1, 0.2, 0.3}));
+  EXPECT_EQ(material(0).specular, 0.25);
+  EXPECT_EQ(material(0).shininess, 7.0);
+  EXPECT_EQ(material(1).reflectance.rgb, (LinearRgb{0.3, 0.2, 0.1}));
+  EXPECT_EQ(scene.objects[0].material, scene.objects[2].material);
+}
+
+TEST(SceneMaterials, ColoursHaveTheirSpectra) {
+  const Material material = material_of("color = [0.6, 0.25, 0.2]");
+  expect_near(colour_under_d65(material.reflectance.spectrum), {0.6, 0.25, 0.2}, 1e-8);
+}
+
+TEST(SceneMaterials, LevelsBeyondTheVisible) {
+  const Material material = material_of("color = [0.6, 0.25, 0.2], uv = 0.125, ir = 0.875");
+  EXPECT_EQ(material.reflectance.spectrum.at(100), 0.125);
+  EXPECT_EQ(material.reflectance.spectrum.at(2000), 0.875);
+}
+
+TEST(SceneMaterials, Checker) {
+  const Material material = material_of("checker = { colors = [[1, 1, 1], [0.1, 0.2, 0.3]], size = 0.5 }");
+  ASSERT_TRUE(material.checker.has_value());
+  EXPECT_EQ(material.checker->size, 0.5);
+  EXPECT_EQ(material.checker->colours[0].rgb, LinearRgb{1.0});
+  expect_near(colour_under_d65(material.checker->colours[1].spectrum), {0.1, 0.2, 0.3}, 1e-8);
+}
+
+TEST(SceneMaterials, SpectrumOutright) {
+  const Material material = material_of("spectrum = { wavelengths = [400, 500], values = [0.2, 0.4] }");
+  EXPECT_NEAR(material.reflectance.spectrum.at(450), 0.3, 1e-15);
+  EXPECT_EQ(material.reflectance.spectrum.at(900), 0.4);
+  expect_near(material.reflectance.rgb, colour_under_d65(material.reflectance.spectrum), 0.0);
+}
+
+TEST(SceneMaterials, Emission) {
+  const Material white = material_of("emission = 3");
+  EXPECT_TRUE(white.emits);
+  EXPECT_EQ(white.emission.rgb, LinearRgb{3.0});
+  const Material hot = material_of("emission = 2, temperature = 3000");
+  EXPECT_NEAR(luminance(hot.emission.rgb), 2.0, 1e-9);
+  EXPECT_GT(hot.emission.rgb.r, hot.emission.rgb.b);
+  expect_near(film_colour(hot.emission.spectrum), hot.emission.rgb, 1e-12);
+  const Material red = material_of("emission = 2, emission_color = [1, 0.5, 0.25]");
+  EXPECT_EQ(red.emission.rgb, (LinearRgb{2, 1, 0.5}));
+  expect_near(film_colour(red.emission.spectrum), red.emission.rgb, 1e-6);
+}
+
+// More colours than are worth an exact spectrum each take them from the table.
+TEST(SceneMaterials, ManyColours) {
+  std::string text = camera;
+  for (int i = 0; i < 300; ++i) {
+    text += "[[object]]\nshape = \"sphere\"\nradius = 1\nmaterial = { color = [" + std::to_string(i / 300.0) +
+            ", 0.5, 0.25] }\n";
+  }
+  const Scene scene = compiled(text);
+  for (const Material& material : scene.materials) {
+    expect_near(colour_under_d65(material.reflectance.spectrum), material.reflectance.rgb, 0.01);
+  }
+}
+
+TEST(SceneLights, APointOfStrengthOneByDefault) {
+  const Light light = light_of("position = [1, 2, 3]\n");
+  EXPECT_EQ(light.kind, LightKind::point);
+  EXPECT_EQ(light.position, (Vec3{1, 2, 3}));
+  EXPECT_EQ(light.strength, 1.0);
+  EXPECT_FALSE(light.flickers);
+  EXPECT_TRUE(light.colour.spectrum.is_d65_shaped());
+  EXPECT_EQ(light.colour.rgb, LinearRgb{1.0});
+}
+
+TEST(SceneLights, Types) {
+  const Light sun = light_of("type = \"distant\"\ndirection = [0, -3, 4]\nirradiance = 5\n");
+  EXPECT_EQ(sun.kind, LightKind::distant);
+  EXPECT_EQ(sun.direction, (Vec3{0, -0.6, 0.8}));
+  EXPECT_EQ(sun.strength, 5.0);
+  const Light ambient = light_of("type = \"ambient\"\nradiance = 0.25\n");
+  EXPECT_EQ(ambient.kind, LightKind::ambient);
+  EXPECT_EQ(ambient.strength, 0.25);
+}
+
+TEST(SceneLights, ColoursAreOfUnitStrength) {
+  const Light hot = light_of("temperature = 2700\nintensity = 300\n");
+  EXPECT_NEAR(luminance(hot.colour.rgb), 1.0, 1e-9);
+  EXPECT_EQ(hot.strength, 300.0);
+  const Light red = light_of("color = [1, 0.25, 0.125]\n");
+  EXPECT_EQ(red.colour.rgb, (LinearRgb{1, 0.25, 0.125}));
+  expect_near(film_colour(red.colour.spectrum), red.colour.rgb, 1e-6);
+  const Light line = light_of("spectrum = { wavelengths = [580, 590, 600], values = [0, 7, 0] }\n");
+  EXPECT_NEAR(luminance(line.colour.rgb), 1.0, 1e-12);
+  EXPECT_NEAR(luminance(film_colour(line.colour.spectrum)), 1.0, 1e-12);
+}
+
+TEST(SceneLights, FlickerInTheirOwnTime) {
+  const std::string text = "[params]\nrate = 3\n[animation]\nfps = 1\nframes = [5, 5]\n" + camera +
+                           "[[light]]\nintensity = \"rate * t + frame\"\nvelocity = [0.5, 0, 0]\n"
+                           "[[light]]\nintensity = \"rate * frame\"\n";
+  const Scene scene = compiled(text);
+  const Light& light = scene.lights[0];
+  ASSERT_TRUE(light.flickers);
+  std::vector<double> variables = light.variables;
+  ASSERT_EQ(variables.size(), 3U);
+  variables[0] = 10.0;
+  EXPECT_EQ(light.strength_of_time.evaluate(variables), 35.0);
+  EXPECT_FALSE(scene.lights[1].flickers);
+  EXPECT_EQ(scene.lights[1].strength, 15.0);
+}
+
+TEST(SceneSky, BlackWithoutABackground) {
+  const Sky sky = compiled(camera).sky;
+  EXPECT_FALSE(sky.emits);
+  EXPECT_EQ(sky.frame, 0);
+  EXPECT_TRUE(sky.stars.empty());
+}
+
+TEST(SceneSky, ColourAndTemperature) {
+  const Sky blue = compiled(camera + "[background]\ncolor = [0.5, 0.7, 1]\nradiance = 2\n").sky;
+  EXPECT_TRUE(blue.emits);
+  EXPECT_EQ(blue.radiance.rgb, (LinearRgb{1, 1.4, 2}));
+  expect_near(film_colour(blue.radiance.spectrum), blue.radiance.rgb, 1e-6);
+  const Sky hot =
+      compiled(camera + "[background]\ntemperature = 4000\nradiance = 3\nbeta = [0, 0, 0.5]\n").sky;
+  EXPECT_NEAR(luminance(hot.radiance.rgb), 3.0, 1e-8);
+  EXPECT_EQ(hot.frame, 1);
+}
+
+TEST(SceneSky, StarsOfACatalogue) {
+  const std::string folder = std::string(BACKLIGHT_BINARY_DIR);
+  ASSERT_TRUE(write_file(folder + "/three_stars.csv",
+                         "right_ascension,declination,magnitude,b_minus_v\n"
+                         "# towards +z, +x and +y\n0,0,0,0.65\n90, 0, 5, 0\r\n\n10,90,-2.5,1.5\n")
+                  .ok());
+  const Scene scene = compiled(
+      camera + "[background]\nstars = { file = \"three_stars.csv\", brightness = 2 }\n", {}, {}, folder);
+  ASSERT_EQ(scene.sky.stars.size(), 3U);
+  EXPECT_NEAR(glm::distance(scene.sky.stars[0].direction, Vec3{0, 0, 1}), 0.0, 1e-15);
+  EXPECT_NEAR(glm::distance(scene.sky.stars[1].direction, Vec3{1, 0, 0}), 0.0, 1e-15);
+  EXPECT_NEAR(glm::distance(scene.sky.stars[2].direction, Vec3{0, 1, 0}), 0.0, 1e-15);
+  EXPECT_NEAR(scene.sky.stars[0].illuminance, 2e-6, 1e-20);
+  EXPECT_NEAR(scene.sky.stars[1].illuminance, 2e-8, 1e-22);
+  EXPECT_NEAR(scene.sky.stars[2].illuminance, 2e-5, 1e-19);
+  EXPECT_EQ(scene.sky.stars[0].temperature, temperature_from_bv(0.65));
+}
+
+TEST(SceneSky, MadeUpStarsAreEvenAndRepeatable) {
+  const auto stars = [](const std::string& keys) {
+    return compiled(camera + "[background]\nstars = { " + keys + " }\n").sky.stars;
+  };
+  const std::vector<Star> sky = stars("count = 9000, seed = 1");
+  ASSERT_EQ(sky.size(), 9000U);
+  Vec3 sum{0.0};
+  Vec3 squares{0.0};
+  int brighter = 0;
+  for (const Star& star : sky) {
+    EXPECT_NEAR(glm::length(star.direction), 1.0, 1e-15);
+    sum += star.direction;
+    squares += star.direction * star.direction;
+    if (star.illuminance > 1e-6 * std::pow(10.0, -0.4 * 4.5)) ++brighter;
+    EXPECT_GE(star.illuminance, 1e-6 * std::pow(10.0, -0.4 * 6.5) * (1 - 1e-12));
+  }
+  // Each component has variance 1/3, its square 4/45: five standard deviations of the means.
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(sum[i] / 9000, 0.0, 5 * std::sqrt(1.0 / 3 / 9000));
+    EXPECT_NEAR(squares[i] / 9000, 1.0 / 3, 5 * std::sqrt(4.0 / 45 / 9000));
+  }
+  // A tenth of them is brighter than magnitude 4.5, two above the faintest.
+  EXPECT_NEAR(brighter, 900, 5 * std::sqrt(900 * 0.9));
+  EXPECT_EQ(stars("count = 9000, seed = 1")[77].direction, sky[77].direction);
+  EXPECT_NE(stars("count = 9000, seed = 2")[77].direction, sky[77].direction);
+  EXPECT_EQ(stars("count = 100, seed = 1")[77].direction, sky[77].direction);
+}
+
+}  // namespace
+}  // namespace backlight
