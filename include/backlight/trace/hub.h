@@ -1,0 +1,41 @@
+// The hub: every frame relative to the camera's event, composed once an image.
+//
+// docs/physics.md section 2. A ray costs one boost of a direction per frame, a hit in a frame is
+// camera_event + λ k there, and no number of a ray ever goes through world coordinates: clocks of 10⁹ and
+// frames of γ = 10⁶ then cost nothing.
+#pragma once
+
+#include <vector>
+
+#include "backlight/scene/scene.h"
+#include "backlight/spacetime/transform.h"
+
+namespace backlight {
+
+/// One frame of the scene as the camera's event has it.
+struct FrameView {
+  LorentzTransform<Rest, Camera> from_camera;
+  Event<Rest> camera_event;  ///< the exposure, in the frame's coordinates
+  const SceneFrame* scene = nullptr;
+  bool has_surfaces = false;
+};
+
+/// One light's rest frame, and the way from it to every frame of the scene.
+struct LightView {
+  const Light* light = nullptr;
+  int frame = 0;
+  std::vector<LorentzTransform<Rest, Source>> to_frame;  ///< by frame index
+};
+
+/// All of them, for one camera event.
+struct Hub {
+  std::vector<FrameView> frames;                   ///< by frame index; [0] is the world
+  std::vector<LightView> lights;                   ///< by light index
+  std::vector<int> occupied;                       ///< indices of frames with surfaces, ascending
+  LorentzTransform<Camera, Rest> camera_from_sky;  ///< for what shines forward from infinity: the stars
+};
+
+/// Composes the hub in extended precision.
+Hub make_hub(const Scene& scene);
+
+}  // namespace backlight

@@ -1,0 +1,68 @@
+// What a seen point sends towards the camera, in its own rest frame: Lambert, Phong and own emission.
+#pragma once
+
+#include <vector>
+
+#include "backlight/colour/observer.h"
+#include "backlight/trace/illumination.h"
+
+namespace backlight {
+
+/// What was done for one image, for the statistics. Summed over threads at the end.
+struct RayCounts {
+  std::uint64_t primary = 0;     ///< camera rays
+  std::uint64_t shadow = 0;      ///< segments to lamps that were tested
+  std::uint64_t data = 0;        ///< pixel-centre rays for the data channels alone
+  std::uint64_t non_finite = 0;  ///< pixels with a NaN or an infinity
+};
+
+/// Colours under lamps at rest, worked out once an image from the spectra, so that the RGB path shows at rest
+/// what the spectral path would: the film colour of lamp × reflectance. One per lamp and constant colour.
+class RestColours {
+ public:
+  explicit RestColours(const Scene& scene);
+
+  /// Film colour of reflectance slot `slot` (0, or 0 and 1 of a checker) of a material under a light of unit
+  /// strength.
+  [[nodiscard]] const LinearRgb& under(std::size_t light, int material, int slot) const {
+    return table_[(light * materials_ + static_cast<std::size_t>(material)) * 2 +
+                  static_cast<std::size_t>(slot)];
+  }
+
+ private:
+  std::size_t materials_;
+  std::vector<LinearRgb> table_;
+};
+
+/// Working memory of one thread.
+struct Scratch {
+  Scratch(const Hub& hub, const Scene& scene, std::size_t wavelengths);
+
+  RayInFrames rays;
+  RayCounts counts;
+  std::vector<std::vector<double>> light_variables;  ///< for strengths that change with time
+  // One value a wavelength of the camera's set:
+  std::vector<double> wavelengths;  ///< in the surface's (or sky's) frame
+  std::vector<double> at_light;     ///< the same in the lamp's frame
+  std::vector<double> reflectance;
+  std::vector<double> lamp;
+  std::vector<double> radiance;
+};
+
+/// What the shading of one image reads.
+struct ShadingContext {
+  const Scene* scene = nullptr;
+  const Hub* hub = nullptr;
+  const RestColours* rest_colours = nullptr;
+};
+
+/// Radiance towards the camera in the surface's frame, as a film colour: no colours are shifted, but the
+/// brightness of lamps in motion is (factors of `effects`).
+Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
+                     Scratch& scratch);
+
+/// The same as spectral radiance at scratch.wavelengths (of the surface's frame), into scratch.radiance.
+void shade_spectrum(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
+                    Scratch& scratch);
+
+}  // namespace backlight

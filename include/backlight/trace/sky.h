@@ -1,0 +1,32 @@
+// What comes from infinity: docs/physics.md section 7.
+#pragma once
+
+#include <vector>
+
+#include "backlight/colour/observer.h"
+#include "backlight/trace/shading.h"
+
+namespace backlight {
+
+/// Radiance of the sky in its own frame along this ray, as a film colour.
+Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray);
+
+/// The same as a spectrum at scratch.wavelengths (of the sky's frame), into scratch.radiance.
+void sky_spectrum(const Sky& sky, const RestRayEvents& ray, Scratch& scratch);
+
+/// A star as the camera has it.
+struct StarImage {
+  int x = 0;  ///< pixel of the full image
+  int y = 0;
+  Vec3 direction{0.0};      ///< unit, camera frame: for the test whether an object hides it
+  LinearRgb radiance{0.0};  ///< its light spread over that pixel
+};
+
+/// All stars that fall on the film, by row and then column: aberrated forward, shifted as the blackbodies
+/// they are, flux by D².
+std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const WavelengthSet& wavelengths);
+
+/// The effects in force at an image point, in pixels.
+const Effects& effects_at(const Scene& scene, const ImagePoint& point);
+
+}  // namespace backlight

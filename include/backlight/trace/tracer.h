@@ -1,0 +1,57 @@
+// From a camera ray to the light that it carries.
+#pragma once
+
+#include <span>
+
+#include "backlight/trace/sky.h"
+
+namespace backlight {
+
+/// What is known of the surface that a ray meets, as written to the EXR's data channels
+/// (docs/scene-reference.md). Zero where it meets none, but for the sky's Doppler factor.
+struct SurfaceRecord {
+  int object_id = 0;           ///< 1, 2, ... in file order; 0 = nothing
+  double distance = 0.0;       ///< Z: light-travel distance to the hit, camera frame
+  double doppler = 0.0;        ///< ω_camera/ω_object
+  double emission_time = 0.0;  ///< world time of the emission event, scene seconds
+  double proper_time = 0.0;    ///< the object's frame time of it, scene seconds
+  Vec3 position{0.0};          ///< P, in the object's rest frame
+  Vec3 normal{0.0};            ///< N, facing the ray, in the object's rest frame
+};
+
+/// Traces rays of one image. Immutable; each thread brings its own Scratch.
+class Tracer {
+ public:
+  /// `wavelengths`: size of the spectral quadrature, or 0 when no colour is shifted anywhere in the image.
+  /// The scene must outlive the tracer.
+  Tracer(const Scene& scene, int wavelengths);
+
+  [[nodiscard]] Scratch make_scratch() const;
+
+  /// Scene-linear film colour of the light along `ray`, stars apart.
+  LinearRgb colour(const CameraRay& ray, const Effects& effects, Scratch& scratch) const;
+
+  /// What the ray meets.
+  SurfaceRecord surface(const CameraRay& ray, Scratch& scratch) const;
+
+  /// The stars of pixel (x, y) of the full image that are not hidden by an object.
+  LinearRgb stars(int x, int y, Scratch& scratch) const;
+
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] const Hub& hub() const { return hub_; }
+
+ private:
+  const Scene* scene_;
+  Hub hub_;
+  RestColours rest_colours_;
+  WavelengthSet wavelengths_;
+  bool spectral_;
+  std::vector<StarImage> stars_;
+};
+
+/// The ray through an image point (pixels of the full image); empty where the projection shows nothing.
+/// `eye` is -1 for the left eye of a stereo pair, +1 for the right, 0 for the one camera.
+std::optional<CameraRay> camera_ray(const CameraView& camera, const ImagePoint& point, const Effects& effects,
+                                    int eye);
+
+}  // namespace backlight

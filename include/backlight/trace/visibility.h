@@ -1,0 +1,67 @@
+// What a ray meets first, and whether a lamp is hidden.
+#pragma once
+
+#include <vector>
+
+#include "backlight/surface/surface_set.h"
+#include "backlight/trace/ray.h"
+
+namespace backlight {
+
+/// The first surface back along a ray.
+struct FirstHit {
+  Hit hit;
+  int frame = -1;  ///< index of the surface's rest frame
+  [[nodiscard]] bool found() const { return hit.found(); }
+};
+
+/// A camera ray in all frames that it was asked for: one per thread, used again for every ray.
+///
+/// Frames with surfaces are filled by trace(); any other frame is boosted when first asked for.
+class RayInFrames {
+ public:
+  explicit RayInFrames(const Hub& hub) : hub_(&hub), events_(hub.frames.size()), age_(hub.frames.size(), 0) {}
+
+  void start(const CameraRay& ray) {
+    ray_ = ray;
+    ++current_;
+  }
+  [[nodiscard]] const CameraRay& ray() const { return ray_; }
+
+  /// The ray in frame `index`.
+  const RestRayEvents& in(int index) {
+    const auto i = static_cast<std::size_t>(index);
+    if (age_[i] != current_) {
+      events_[i] = in_frame(hub_->frames[i], ray_);
+      age_[i] = current_;
+    }
+    return events_[i];
+  }
+
+ private:
+  const Hub* hub_;
+  CameraRay ray_;
+  std::vector<RestRayEvents> events_;
+  std::vector<std::uint64_t> age_;
+  std::uint64_t current_ = 0;
+};
+
+/// The nearest hit over all frames: the smallest λ, compared across frames as it stands
+/// (docs/physics.md section 2); of equal λ, the frame that comes first.
+FirstHit first_hit(const Hub& hub, RayInFrames& rays);
+
+/// The way from a lit point to a light, in the light's frame: a past-directed null segment that starts at
+/// the hit and ends (at parameter 1) at the emission event, or goes on forever to a distant light.
+struct ShadowSegment {
+  NullDirection<Source> direction;
+  Vec3 start_in_surface_frame{0.0};  ///< the lit point, moved off its surface by the bound of its error
+  Vec3 direction_in_surface_frame{0.0};
+  double end = 1.0;
+};
+
+/// Whether something is between the hit and the light: docs/physics.md section 4. Tested in each occluder's
+/// own frame, at the retarded times by construction.
+bool is_shadowed(const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,
+                 const ShadowSegment& segment);
+
+}  // namespace backlight

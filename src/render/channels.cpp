@@ -1,0 +1,83 @@
+#include "channels.h"
+
+#include <array>
+#include <string_view>
+
+namespace backlight {
+namespace {
+
+// One data channel: the key of `aovs` that asks for it, its name in the file, and its number of a record.
+struct DataChannel {
+  std::string_view aov;
+  const char* name;
+  double (*value)(const SurfaceRecord&);
+};
+
+using R = SurfaceRecord;
+constexpr std::array data_channels{
+    DataChannel{"Z", "Z", [](const R& r) { return r.distance; }},
+    DataChannel{"doppler", "doppler.D", [](const R& r) { return r.doppler; }},
+    DataChannel{"emissionTime", "emissionTime.T", [](const R& r) { return r.emission_time; }},
+    DataChannel{"properTime", "properTime.T", [](const R& r) { return r.proper_time; }},
+    DataChannel{"P", "P.X", [](const R& r) { return r.position.x; }},
+    DataChannel{"P", "P.Y", [](const R& r) { return r.position.y; }},
+    DataChannel{"P", "P.Z", [](const R& r) { return r.position.z; }},
+    DataChannel{"N", "N.X", [](const R& r) { return r.normal.x; }},
+    DataChannel{"N", "N.Y", [](const R& r) { return r.normal.y; }},
+    DataChannel{"N", "N.Z", [](const R& r) { return r.normal.z; }},
+    DataChannel{"objectId", "objectId.V", [](const R& r) { return static_cast<double>(r.object_id); }},
+};
+
+bool asked_for(const Scene& scene, std::string_view aov) {
+  for (const std::string& name : scene.film.aovs) {
+    if (name == aov) return true;
+  }
+  return false;
+}
+
+std::vector<ChannelInfo> channels_of_one_view(const Scene& scene) {
+  std::vector<ChannelInfo> channels;
+  for (const char* name : {"R", "G", "B", "A"}) channels.push_back({name, ChannelPrecision::half});
+  for (const DataChannel& channel : data_channels) {
+    if (asked_for(scene, channel.aov)) channels.push_back({channel.name, ChannelPrecision::single});
+  }
+  return channels;
+}
+
+}  // namespace
+
+ImageLayout layout_of(const Scene& scene, const PixelBox& data_window) {
+  ImageLayout layout;
+  layout.display = {0, 0, scene.film.width, scene.film.height};
+  layout.data = data_window;
+  layout.channels = channels_of_one_view(scene);
+  if (scene.camera.stereo) {
+    layout.views = {"left", "right"};
+    layout.channels = channels_of_views(layout.channels, layout.views);
+  }
+  return layout;
+}
+
+bool has_data_channels(const Scene& scene) {
+  return !scene.film.aovs.empty();
+}
+
+PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
+    : scene_(scene), image_(image), first_(view * channels_of_one_view(scene).size()) {}
+
+void PixelWriter::colour(int x, int y, const LinearRgb& rgb, double alpha) {
+  const std::array<double, 4> values{rgb.r, rgb.g, rgb.b, alpha};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    image_.at(first_ + i, x, y) = static_cast<float>(values[i]);
+  }
+}
+
+void PixelWriter::data(int x, int y, const SurfaceRecord& record) {
+  std::size_t channel = first_ + 4;
+  for (const DataChannel& data : data_channels) {
+    if (!asked_for(scene_, data.aov)) continue;
+    image_.at(channel++, x, y) = static_cast<float>(data.value(record));
+  }
+}
+
+}  // namespace backlight

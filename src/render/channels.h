@@ -1,0 +1,31 @@
+// Which channels an image has, and how a pixel's numbers go into them.
+#pragma once
+
+#include <vector>
+
+#include "backlight/film/image.h"
+#include "backlight/trace/tracer.h"
+
+namespace backlight {
+
+/// The layout of the scene's image: colour, the data channels asked for, views.
+ImageLayout layout_of(const Scene& scene, const PixelBox& data_window);
+
+/// Whether any data channel is asked for.
+bool has_data_channels(const Scene& scene);
+
+/// Writes one view's pixels, by the channel order of layout_of.
+class PixelWriter {
+ public:
+  PixelWriter(const Scene& scene, Image& image, std::size_t view);
+
+  void colour(int x, int y, const LinearRgb& rgb, double alpha);
+  void data(int x, int y, const SurfaceRecord& record);
+
+ private:
+  const Scene& scene_;
+  Image& image_;
+  std::size_t first_;  // channel
+};
+
+}  // namespace backlight

@@ -1,0 +1,44 @@
+#include "backlight/trace/hub.h"
+
+namespace backlight {
+namespace {
+
+FrameView view_of(const SceneFrame& frame, const CameraView& camera) {
+  const ExtendedEvent event = to_frame(frame.motion, camera.event);
+  FrameView view;
+  view.from_camera = relative_transform<Rest, Camera>(frame.motion.celerity, camera.celerity);
+  view.camera_event = {double(event.t), event.x.rounded()};
+  view.scene = &frame;
+  view.has_surfaces = frame.surfaces.size() > 0;
+  return view;
+}
+
+LightView view_of(const Light& light, const Scene& scene) {
+  const ExtendedVec3& own = scene.frames[static_cast<std::size_t>(light.frame)].motion.celerity;
+  LightView view;
+  view.light = &light;
+  view.frame = light.frame;
+  view.to_frame.reserve(scene.frames.size());
+  for (const SceneFrame& frame : scene.frames) {
+    view.to_frame.push_back(relative_transform<Rest, Source>(frame.motion.celerity, own));
+  }
+  return view;
+}
+
+}  // namespace
+
+Hub make_hub(const Scene& scene) {
+  Hub hub;
+  hub.frames.reserve(scene.frames.size());
+  for (const SceneFrame& frame : scene.frames) {
+    hub.frames.push_back(view_of(frame, scene.camera));
+    if (hub.frames.back().has_surfaces) hub.occupied.push_back(static_cast<int>(hub.frames.size()) - 1);
+  }
+  hub.lights.reserve(scene.lights.size());
+  for (const Light& light : scene.lights) hub.lights.push_back(view_of(light, scene));
+  const ExtendedVec3& sky = scene.frames[static_cast<std::size_t>(scene.sky.frame)].motion.celerity;
+  hub.camera_from_sky = relative_transform<Camera, Rest>(scene.camera.celerity, sky);
+  return hub;
+}
+
+}  // namespace backlight

@@ -1,0 +1,118 @@
+#include "backlight/trace/sky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "backlight/colour/upsampling.h"
+
+namespace backlight {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Equirectangular as an equirectangular camera looking along +z with y up would have made it: u = 1/2 at +z,
+// growing towards -x (its right), v = 0 at +y.
+LinearRgb texture_at(const Sky& sky, const Vec3& direction) {
+  const Vec3 s = direction / glm::length(direction);
+  const double u = 0.5 + std::atan2(-s.x, s.z) / (2.0 * pi);
+  const double v = std::acos(std::clamp(s.y, -1.0, 1.0)) / pi;
+  return sky.texture_scale * sky.texture->sample(u, v, TextureEdge::clamp);
+}
+
+// The direction in the camera's frame in which a star at infinity is seen, and the frequency ratio.
+struct SeenStar {
+  Vec3 direction;
+  DopplerFactor<Camera, Rest> doppler;
+};
+
+SeenStar seen(const Star& star, const Hub& hub, const Scene& scene, bool light_delay) {
+  if (light_delay) {
+    const NullDirection<Camera> n = hub.camera_from_sky(NullDirection<Rest>{star.direction, 1.0});
+    return {n.x / n.length, {n.length}};
+  }
+  // Simultaneous in the camera's frame: the direction d whose image (0; d) in the sky's frame points at the
+  // star. With Λ = R B(w), the space part of B(w)(0; d) is d + (w·d)/(γ+1) w.
+  const auto& sky = hub.frames[static_cast<std::size_t>(scene.sky.frame)].from_camera;
+  const Vec3 unrotated = glm::transpose(sky.rotation()) * star.direction;
+  const Vec3& w = sky.celerity();
+  const double k = glm::dot(w, unrotated) / (sky.gamma() * (1.0 + sky.gamma()));
+  return {glm::normalize(unrotated - k * w), {1.0}};
+}
+
+// Film colour of the star's irradiance in the camera's frame, in film Y times steradians.
+LinearRgb illuminance(const Star& star, DopplerFactor<Camera, Rest> doppler, double gamma,
+                      const Effects& effects, const WavelengthSet& wavelengths, std::vector<double>& work) {
+  const BrightnessSwitches& factors = effects.light_delay ? effects.brightness : no_searchlight;
+  const double flux = flux_factor(doppler, gamma, factors);
+  const Spectrum body = Spectrum::blackbody(star.temperature);
+  const DopplerFactor<Camera, Rest> shift = effects.doppler ? doppler : DopplerFactor<Camera, Rest>{};
+  work.resize(wavelengths.nm().size());
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    work[i] = body.at(wavelength_at_origin(shift, wavelengths.nm()[i])) * wavelength_density_factor(shift);
+  }
+  return star.illuminance * flux * wavelengths.film(work.data());
+}
+
+}  // namespace
+
+const Effects& effects_at(const Scene& scene, const ImagePoint& point) {
+  const double x = point.x / scene.camera.lens.width;
+  const double y = point.y / scene.camera.lens.height;
+  const Effects* found = &scene.effects;
+  for (const EffectsRegion& region : scene.regions) {
+    if (x >= region.x0 && x < region.x1 && y >= region.y0 && y < region.y1) found = &region.effects;
+  }
+  return *found;
+}
+
+Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray) {
+  if (!sky.emits) return {};
+  return {sky.texture ? texture_at(sky, ray.direction) : sky.radiance.rgb};
+}
+
+void sky_spectrum(const Sky& sky, const RestRayEvents& ray, Scratch& s) {
+  const int n = static_cast<int>(s.wavelengths.size());
+  if (!sky.emits) {
+    std::fill(s.radiance.begin(), s.radiance.end(), 0.0);
+    return;
+  }
+  if (!sky.texture) {
+    sky.radiance.spectrum.evaluate(s.wavelengths.data(), n, s.radiance.data());
+    return;
+  }
+  // D65 times a reflectance of half the texel's largest component, as for any coloured light.
+  const LinearRgb rgb = glm::max(texture_at(sky, ray.direction), 0.0);
+  const double scale = 2.0 * std::max({rgb.r, rgb.g, rgb.b});
+  const SigmoidReflectance shape = upsample(scale > 0.0 ? rgb / scale : rgb);
+  Spectrum::d65().evaluate(s.wavelengths.data(), n, s.lamp.data());
+  for (std::size_t i = 0; i < s.wavelengths.size(); ++i) {
+    s.radiance[i] = scale * s.lamp[i] * shape.at(s.wavelengths[i]);
+  }
+}
+
+std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const WavelengthSet& wavelengths) {
+  const Lens& lens = scene.camera.lens;
+  const double gamma = hub.camera_from_sky.gamma();
+  std::vector<StarImage> images;
+  std::vector<double> work;
+  for (const Star& star : scene.sky.stars) {
+    // A region may switch light delay, and so move the star: it is seen where it agrees with itself.
+    for (const bool light_delay : {true, false}) {
+      const SeenStar s = seen(star, hub, scene, light_delay);
+      const auto point = point_of(lens, s.direction);
+      if (!point) continue;
+      const Effects& effects = effects_at(scene, *point);
+      if (effects.light_delay != light_delay) continue;
+      const ImagePoint pixel{std::floor(point->x), std::floor(point->y)};
+      const double area = pixel_solid_angle(lens, {pixel.x + 0.5, pixel.y + 0.5});
+      const LinearRgb light = illuminance(star, s.doppler, gamma, effects, wavelengths, work);
+      images.push_back({static_cast<int>(pixel.x), static_cast<int>(pixel.y), s.direction, light / area});
+    }
+  }
+  std::stable_sort(images.begin(), images.end(),
+                   [](const StarImage& a, const StarImage& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  return images;
+}
+
+}  // namespace backlight

@@ -1,0 +1,116 @@
+#include "backlight/trace/tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace backlight {
+
+Tracer::Tracer(const Scene& scene, int wavelengths)
+    : scene_(&scene),
+      hub_(make_hub(scene)),
+      rest_colours_(scene),
+      wavelengths_(wavelengths > 0 ? wavelengths : default_wavelength_count),
+      spectral_(wavelengths > 0),
+      stars_(star_images(scene, hub_, wavelengths_)) {}
+
+Scratch Tracer::make_scratch() const {
+  return {hub_, *scene_, spectral_ ? wavelengths_.nm().size() : 0};
+}
+
+LinearRgb Tracer::colour(const CameraRay& ray, const Effects& effects, Scratch& scratch) const {
+  // The ray in every frame with surfaces (docs/physics.md equations (3), (4)), the first hit in each back
+  // along the past light cone, and the nearest of them: the smallest λ.
+  scratch.rays.start(ray);
+  ++scratch.counts.primary;
+  const FirstHit hit = first_hit(hub_, scratch.rays);
+  const int frame = hit.found() ? hit.frame : scene_->sky.frame;
+  const RestRayEvents& events = scratch.rays.in(frame);
+
+  // What carries light to the camera: L_camera(λ) = F D L_rest(Dλ), equation (8); F alone where colours stay,
+  // (9).
+  const DopplerFactor<Camera, Rest> doppler = events.doppler(ray.light_delay);
+  const double gamma = hub_.frames[static_cast<std::size_t>(frame)].from_camera.gamma();
+  const BrightnessSwitches& factors = ray.light_delay ? effects.brightness : no_searchlight;
+  const ShadingContext context{scene_, &hub_, &rest_colours_};
+
+  if (!spectral_ || !effects.doppler) {
+    // Light into the surface from its retarded event, shadow ray, reflection in the rest frame: (10)-(12).
+    const Radiance<Rest> radiance =
+        hit.found() ? shade(context, seen_point(hub_, scratch.rays, hit), effects, scratch)
+                    : sky_radiance(scene_->sky, events);
+    return carry(radiance, doppler, gamma, factors).rgb;
+  }
+  for (std::size_t i = 0; i < scratch.wavelengths.size(); ++i) {
+    scratch.wavelengths[i] = wavelength_at_origin(doppler, wavelengths_.nm()[i]);
+  }
+  if (hit.found()) {
+    shade_spectrum(context, seen_point(hub_, scratch.rays, hit), effects, scratch);
+  } else {
+    sky_spectrum(scene_->sky, events, scratch);
+  }
+  const double factor = radiance_factor(doppler, gamma, factors) * wavelength_density_factor(doppler);
+  return factor * wavelengths_.film(scratch.radiance.data());
+}
+
+SurfaceRecord Tracer::surface(const CameraRay& ray, Scratch& scratch) const {
+  scratch.rays.start(ray);
+  ++scratch.counts.data;
+  const FirstHit hit = first_hit(hub_, scratch.rays);
+  SurfaceRecord record;
+  if (!hit.found()) {
+    record.doppler = scratch.rays.in(scene_->sky.frame).doppler(ray.light_delay).value;
+    return record;
+  }
+  const SeenPoint point = seen_point(hub_, scratch.rays, hit);
+  const SceneFrame& frame = scene_->frames[static_cast<std::size_t>(hit.frame)];
+  const int object = frame.object_of_surface[static_cast<std::size_t>(hit.hit.surface)];
+  record.object_id = scene_->objects[static_cast<std::size_t>(object)].id;
+  record.distance = hit.hit.lambda;
+  record.doppler = scratch.rays.in(hit.frame).doppler(ray.light_delay).value;
+  record.emission_time = scratch.rays.in(0).at(hit.hit.lambda).t / scene_->c;
+  record.proper_time = point.proper_time / scene_->c;
+  record.position = point.surface.position;
+  record.normal = point.normal;
+  return record;
+}
+
+LinearRgb Tracer::stars(int x, int y, Scratch& scratch) const {
+  LinearRgb sum{0.0};
+  const auto before = [](const StarImage& star, const std::pair<int, int>& pixel) {
+    return star.y != pixel.second ? star.y < pixel.second : star.x < pixel.first;
+  };
+  auto star = std::lower_bound(stars_.begin(), stars_.end(), std::pair{x, y}, before);
+  for (; star != stars_.end() && star->x == x && star->y == y; ++star) {
+    const Effects& effects = effects_at(*scene_, {x + 0.5, y + 0.5});
+    CameraRay ray;
+    ray.direction = star->direction;
+    ray.light_delay = effects.light_delay;
+    scratch.rays.start(ray);
+    if (!first_hit(hub_, scratch.rays).found()) sum += star->radiance;
+  }
+  return sum;
+}
+
+std::optional<CameraRay> camera_ray(const CameraView& camera, const ImagePoint& point, const Effects& effects,
+                                    int eye) {
+  const Lens& lens = camera.lens;
+  const auto direction = direction_at(lens, point);
+  if (!direction) return std::nullopt;
+  CameraRay ray;
+  ray.direction = *direction;
+  ray.light_delay = effects.light_delay;
+  if (eye == 0 || !camera.stereo) return ray;
+  // The eyes are half the separation to either side. All around, they turn with the head: the viewer faces
+  // each longitude in turn (omnidirectional stereo).
+  Vec3 aside = lens.right;
+  if (lens.projection == Projection::equirectangular) {
+    const double longitude = (point.x / lens.width - 0.5) * 2.0 * std::numbers::pi;
+    aside = std::cos(longitude) * lens.right - std::sin(longitude) * lens.forward;
+  }
+  ray.offset = {0.0, 0.5 * eye * camera.stereo->separation * aside};
+  ray.displaced = true;
+  return ray;
+}
+
+}  // namespace backlight

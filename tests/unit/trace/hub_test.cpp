@@ -1,0 +1,90 @@
+#include "backlight/trace/hub.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "backlight/trace/visibility.h"
+
+namespace backlight {
+namespace {
+
+SceneFrame frame_of(const Vec3& celerity, const Vec3& origin, double radius) {
+  SceneFrame frame;
+  frame.motion = {ExtendedVec3{celerity}, {Extended(0.0), ExtendedVec3{origin}}};
+  if (radius > 0.0) frame.surfaces.add(sphere(radius), Placement{});
+  frame.surfaces.build();
+  frame.object_of_surface.assign(frame.surfaces.size(), 0);
+  return frame;
+}
+
+Scene two_spheres() {
+  Scene scene;
+  scene.frames.push_back(frame_of({0, 0, 0}, {0, 0, 0}, 0.0));
+  scene.frames.push_back(frame_of({0, 0, 1.5}, {0, 0, 10}, 1.0));
+  scene.frames.push_back(frame_of({0, 0, 0}, {0, 0, 20}, 1.0));
+  return scene;
+}
+
+TEST(Hub, KnowsWhichFramesHaveSurfaces) {
+  const Scene scene = two_spheres();
+  const Hub hub = make_hub(scene);
+  EXPECT_EQ(hub.occupied, (std::vector<int>{1, 2}));
+  EXPECT_FALSE(hub.frames[0].has_surfaces);
+}
+
+TEST(Hub, HasTheCameraEventInEachFrame) {
+  Scene scene = two_spheres();
+  scene.camera.event = {Extended(2.0), ExtendedVec3{Vec3{1.0, 0.0, 10.0}}};
+  const Hub hub = make_hub(scene);
+  const double gamma = std::sqrt(1.0 + 1.5 * 1.5);
+  EXPECT_DOUBLE_EQ(hub.frames[1].camera_event.t, 2.0 * gamma);
+  EXPECT_DOUBLE_EQ(hub.frames[1].camera_event.x.x, 1.0);
+  EXPECT_DOUBLE_EQ(hub.frames[1].camera_event.x.z, -3.0);
+  EXPECT_DOUBLE_EQ(hub.frames[2].camera_event.x.z, -10.0);
+}
+
+TEST(FirstHit, IsTheSmallestLambdaOverFrames) {
+  const Scene scene = two_spheres();
+  const Hub hub = make_hub(scene);
+  RayInFrames rays(hub);
+  CameraRay ray;
+  rays.start(ray);
+  const FirstHit hit = first_hit(hub, rays);
+  ASSERT_TRUE(hit.found());
+  EXPECT_EQ(hit.frame, 1);
+  // The receding sphere's near pole, z = -1 in its frame, was on the past light cone when it stood at
+  // z = 10 - 1/γ + v t with t = -z: z = (10 - 1/γ)/(1 + v).
+  const double gamma = std::sqrt(1.0 + 1.5 * 1.5);
+  const double v = 1.5 / gamma;
+  EXPECT_NEAR(hit.hit.lambda, (10.0 - 1.0 / gamma) / (1.0 + v), 1e-13);
+}
+
+TEST(FirstHit, WithoutLightDelayFindsTheContractedSphereWhereItIsNow) {
+  const Scene scene = two_spheres();
+  const Hub hub = make_hub(scene);
+  RayInFrames rays(hub);
+  CameraRay ray;
+  ray.light_delay = false;
+  rays.start(ray);
+  const FirstHit hit = first_hit(hub, rays);
+  ASSERT_EQ(hit.frame, 1);
+  EXPECT_NEAR(hit.hit.lambda, 10.0 - 1.0 / std::sqrt(1.0 + 1.5 * 1.5), 1e-13);
+}
+
+TEST(RayInFrames, BoostsEachFrameOnceARay) {
+  const Scene scene = two_spheres();
+  const Hub hub = make_hub(scene);
+  RayInFrames rays(hub);
+  CameraRay ray;
+  rays.start(ray);
+  const double toward = rays.in(1).doppler(true).value;
+  EXPECT_LT(toward, 1.0);  // receding
+  ray.direction = {0, 0, -1};
+  EXPECT_EQ(rays.in(1).doppler(true).value, toward);  // still the old ray
+  rays.start(ray);
+  EXPECT_NEAR(rays.in(1).doppler(true).value * toward, 1.0, 1e-15);  // opposite directions: D and 1/D
+}
+
+}  // namespace
+}  // namespace backlight
