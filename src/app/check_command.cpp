@@ -1,0 +1,47 @@
+#include <algorithm>
+#include <iostream>
+#include <vector>
+
+#include "backlight/scene/explain.h"
+#include "commands.h"
+#include "exit_codes.h"
+#include "scene_session.h"
+
+namespace backlight {
+namespace {
+
+// All of a short animation, and as many evenly spaced frames of a long one, its last among them.
+std::vector<int> frames_to_check(const std::vector<int>& frames) {
+  constexpr std::size_t most = 100;
+  if (frames.size() <= most) return frames;
+  std::vector<int> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(frames[i * (frames.size() - 1) / (most - 1)]);
+  return some;
+}
+
+}  // namespace
+
+int run(const CheckOptions& options) {
+  SceneSession session(options.scene);
+  if (session.exit_code() != exit_success) return session.exit_code();
+  const auto scene = session.compile(options.scene.request);
+  if (!scene) return session.exit_code();
+
+  const std::vector<int> frames = session.frames();
+  const std::vector<int> checked = frames_to_check(frames);
+  for (const int frame : checked) {
+    ImageRequest request = options.scene.request;
+    request.frame = frame;
+    if (session.compile(request)) continue;
+    std::cerr << "in frame " << frame << '\n';
+    return session.exit_code();
+  }
+  if (options.verbosity == Verbosity::quiet) return exit_success;
+  std::cout << explain(session.description(), *scene);
+  if (frames.size() > 1) {
+    std::cout << "No mistakes in " << checked.size() << " of its " << frames.size() << " frames.\n";
+  }
+  return exit_success;
+}
+
+}  // namespace backlight

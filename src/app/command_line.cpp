@@ -1,0 +1,456 @@
+// The only file that includes CLI11, which takes a compiler longer than the rest of the folder.
+// Longer than 400 lines: CLI11's options are declared in one place.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <utility>
+
+#include "backlight/base/diagnostics.h"
+#include "help_text.h"
+#include "option_values.h"
+#include "options.h"
+
+namespace backlight {
+namespace {
+
+constexpr std::array command_names{"render", "check", "view", "info", "schema"};
+
+// Help that reads like a manual page: names, value and meaning in columns, wrapped at 100 characters.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) {}
+
+  std::string make_usage(const CLI::App* /*app*/, std::string /*name*/) const override {
+    return "\nUsage: " + usage_ + "\n";
+  }
+  std::string make_positionals(const CLI::App* /*app*/) const override { return {}; }
+
+  std::string make_option(const CLI::Option* option, bool /*is_positional*/) const override {
+    std::string names = option->get_name(false, true);
+    if (const std::size_t comma = names.find(','); comma != std::string::npos) names.insert(comma + 1, " ");
+    if (!names.starts_with("--")) return help_row("  " + names + value_of(option), option->get_description());
+    return help_row("      " + names + value_of(option), option->get_description());
+  }
+
+ private:
+  static std::string value_of(const CLI::Option* option) {
+    return option->get_type_name().empty() ? "" : " " + option->get_type_name();
+  }
+  std::string usage_;
+};
+
+std::unique_ptr<CLI::App> make_app(const std::string& name, const std::string& what,
+                                   const std::string& usage) {
+  auto app = std::make_unique<CLI::App>(what, "backlight " + name);
+  app->formatter(std::make_shared<HelpFormatter>("backlight " + usage));
+  app->allow_extras();  // unknown flags are reported by unknown_argument()
+  app->option_defaults()->take_last();
+  app->set_help_flag();
+  return app;
+}
+
+// An option whose value is read by `read`, from a text to a Result.
+template <class Read, class Set>
+CLI::Option* add_value(CLI::App& app, const char* names, const char* value, const char* help, Read read,
+                       Set set) {
+  const std::string all = names;
+  const std::string name = all.substr(all.rfind(',') + 1);
+  return app
+      .add_option_function<std::string>(
+          names,
+          [name, read, set](const std::string& text) {
+            auto result = read(text);
+            if (!result.ok()) throw CLI::ValidationError(name, result.error());
+            set(std::move(result).value());
+          },
+          help)
+      ->type_name(value);
+}
+
+auto whole(std::int64_t least, std::int64_t most) {
+  return [least, most](const std::string& text) { return parse_whole(text, least, most); };
+}
+
+// Reads one of these words.
+template <class Value>
+auto choice(std::vector<std::pair<std::string, Value>> choices) {
+  return [choices = std::move(choices)](const std::string& text) -> Result<Value> {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : choices) {
+      if (name == text) return value;
+      names.push_back(name);
+    }
+    return not_one_of(names, text);
+  };
+}
+
+// One command: its options, where their values go, and what is still to check when all are read.
+struct Parser {
+  std::unique_ptr<CLI::App> app;
+  std::function<Command()> finish;  ///< throws CLI::ValidationError
+};
+
+CLI::Option* add_flag(CLI::App& app, const char* names, bool& value, const char* help) {
+  return app.add_flag(names, value, help);
+}
+
+struct SceneFlags {
+  SceneOptions options;
+  std::vector<std::string> files;
+  bool quiet = false;
+  bool verbose = false;
+
+  [[nodiscard]] Verbosity verbosity() const {
+    if (quiet && verbose) throw CLI::ValidationError("--quiet", "not together with --verbose");
+    return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
+  }
+
+  [[nodiscard]] SceneOptions scene() const {
+    if (files.empty()) throw CLI::ValidationError("", "no scene file is given");
+    if (files.size() > 1)
+      throw CLI::ValidationError("", "more than one scene file is given: '" + files[1] + "'");
+    for (const std::string& text : options.overrides) {
+      if (const auto checked = parse_override(text); !checked.ok())
+        throw CLI::ValidationError("--set", checked.error());
+    }
+    SceneOptions scene = options;
+    scene.file = files.front();
+    return scene;
+  }
+};
+
+void add_scene_flags(CLI::App& app, SceneFlags& flags) {
+  app.add_option("SCENE.toml", flags.files);
+  app.add_option(
+         "-D,--set", flags.options.overrides,
+         "change a value of the scene, as in -D camera.fov=40 or -D 'object.tram.velocity=[0.9,0,0]'; may be "
+         "repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false)
+      ->take_all()
+      ->group("Scene");
+  add_value(app, "--camera", "NAME", "the camera to look through, where the scene has several", parse_text,
+            [&flags](std::string name) { flags.options.request.camera = std::move(name); })
+      ->group("Scene");
+}
+
+void add_verbosity(CLI::App& app, bool& quiet, bool* verbose) {
+  add_flag(app, "-q,--quiet", quiet, "say nothing but errors")->group("Other");
+  if (verbose != nullptr) add_flag(app, "-v,--verbose", *verbose, "say more about each step")->group("Other");
+}
+
+void add_film_flags(CLI::App& app, ImageRequest& request, RenderOptions& options) {
+  const char* group = "Picture";
+  add_value(app, "-r,--resolution", "WxH", "size of the image in pixels, as in 1280x720", parse_size,
+            [&request](std::pair<int, int> size) { request.resolution = size; })
+      ->group(group);
+  add_value(
+      app, "--crop", "X0,Y0,X1,Y1",
+      "render only the pixels with X0 <= x < X1 and Y0 <= y < Y1, y down; they are the same as in the whole "
+      "image, and its size is kept in the file",
+      parse_crop, [&options](PixelBox box) { options.crop = box; })
+      ->group(group);
+  add_value(app, "-s,--samples", "N", "samples in each pixel; 1 is exactly its centre", whole(1, 1048576),
+            [&request](std::int64_t count) { request.samples = static_cast<int>(count); })
+      ->group(group);
+  add_value(app, "--seed", "N", "another number gives other sample positions", whole(0, 4294967295),
+            [&request](std::int64_t seed) { request.seed = static_cast<unsigned>(seed); })
+      ->group(group);
+  add_value(
+      app, "--aov", "LIST",
+      "data channels besides the colour, with commas between: Z, doppler, emissionTime, properTime, P, N, "
+      "objectId; or all, or none",
+      parse_aovs, [&request](std::vector<std::string> names) { request.aovs = std::move(names); })
+      ->group(group);
+}
+
+void add_output_flags(CLI::App& app, RenderOptions& options) {
+  const char* group = "Output";
+  add_value(app, "-o,--output", "PATTERN",
+            "file to write, or a folder for it; #### or %04d stands for the frame number (one # means four "
+            "digits). "
+            "Default: the scene's name with .exr in the current folder. Folders are made",
+            OutputPattern::parse, [&options](OutputPattern pattern) { options.output = std::move(pattern); })
+      ->group(group);
+  add_flag(app, "--png", options.png, "write a PNG to look at beside each EXR")->group(group);
+  add_value(app, "--stats", "FILE",
+            "write one JSON object for each image: time, rays, pixels that are not finite", parse_text,
+            [&options](std::string file) { options.statistics = file; })
+      ->group(group);
+}
+
+void add_animation_flags(CLI::App& app, RenderOptions& options) {
+  const char* group = "Animation";
+  add_value(app, "-f,--frames", "RANGE",
+            "frames to render, as in 7 or 1-100 or 1-100x2,150; default: the scene's", parse_frames,
+            [&options](std::vector<int> frames) { options.frames = std::move(frames); })
+      ->group(group);
+  add_value(app, "--time", "T", "one image at the scene time T, in seconds", parse_number,
+            [&options](double time) { options.time = time; })
+      ->group(group);
+}
+
+void add_run_flags(CLI::App& app, RenderOptions& options) {
+  const char* group = "Run";
+  add_value(app, "-t,--threads", "N", "threads to use; default: the CPUs that this process may use",
+            whole(1, 65536), [&options](std::int64_t count) { options.threads = static_cast<int>(count); })
+      ->group(group);
+  add_value(app, "--progress", "STYLE",
+            "auto (a bar on a terminal, else lines), bar, lines, json or none; on stderr",
+            choice<ProgressStyle>({{"auto", ProgressStyle::automatic},
+                                   {"bar", ProgressStyle::bar},
+                                   {"lines", ProgressStyle::lines},
+                                   {"json", ProgressStyle::json},
+                                   {"none", ProgressStyle::none}}),
+            [&options](ProgressStyle style) { options.progress = style; })
+      ->group(group);
+  add_flag(app, "--dry-run", options.dry_run, "check the scene and print the files that would be written")
+      ->group(group);
+  add_flag(app, "--list-frames", options.list_frames,
+           "the same, with the frame number and a tab before each file")
+      ->group(group);
+}
+
+Parser render_parser() {
+  struct State {
+    SceneFlags scene;
+    RenderOptions options;
+    bool half = false;
+    bool single = false;
+  };
+  const auto state = std::make_shared<State>();
+  Parser parser{
+      make_app("render", "Trace the images of a scene into OpenEXR files.", "[render] SCENE.toml [options]"),
+      {}};
+  CLI::App& app = *parser.app;
+  add_output_flags(app, state->options);
+  add_flag(app, "--half", state->half, "16-bit colour, the default; 32-bit if a value is too large for it")
+      ->group("Output");
+  add_flag(app, "--float", state->single, "32-bit colour")->group("Output");
+  add_film_flags(app, state->scene.options.request, state->options);
+  add_animation_flags(app, state->options);
+  add_scene_flags(app, state->scene);
+  add_run_flags(app, state->options);
+  add_verbosity(app, state->scene.quiet, &state->scene.verbose);
+  parser.finish = [state]() -> Command {
+    RenderOptions options = state->options;
+    if (state->half && state->single) throw CLI::ValidationError("--half", "not together with --float");
+    if (options.frames && options.time) throw CLI::ValidationError("--time", "not together with --frames");
+    if (state->single) options.storage = ColourStorage::always_float;
+    options.scene = state->scene.scene();
+    options.verbosity = state->scene.verbosity();
+    return options;
+  };
+  return parser;
+}
+
+Parser check_parser() {
+  const auto flags = std::make_shared<SceneFlags>();
+  Parser parser{make_app("check", "Look for mistakes in a scene and explain what it needs; render nothing.",
+                         "check SCENE.toml [options]"),
+                {}};
+  add_scene_flags(*parser.app, *flags);
+  add_verbosity(*parser.app, flags->quiet, nullptr);
+  parser.finish = [flags]() -> Command { return CheckOptions{flags->scene(), flags->verbosity()}; };
+  return parser;
+}
+
+Parser schema_parser() {
+  const auto options = std::make_shared<SchemaOptions>();
+  Parser parser{
+      make_app("schema", "Print the JSON Schema of the scene format, for editors.", "schema > scene.json"),
+      {}};
+  add_flag(*parser.app, "--markdown", options->markdown, "print the reference page of the format instead");
+  parser.finish = [options]() -> Command { return *options; };
+  return parser;
+}
+
+std::vector<std::filesystem::path> image_files(const std::vector<std::string>& files) {
+  if (files.empty()) throw CLI::ValidationError("", "no image file is given");
+  return {files.begin(), files.end()};
+}
+
+Parser view_parser() {
+  struct State {
+    ViewOptions options;
+    std::vector<std::string> files;
+    bool quiet = false;
+  };
+  const auto state = std::make_shared<State>();
+  Parser parser{
+      make_app("view",
+               "Make a PNG to look at: exposure, tone curve, sRGB. Several images make a contact sheet.",
+               "view IMAGE.exr... [options]"),
+      {}};
+  CLI::App& app = *parser.app;
+  ViewOptions& options = state->options;
+  app.add_option("IMAGE.exr", state->files);
+  add_value(app, "-o,--output", "FILE.png",
+            "file to write; default: the image's name with .png. A contact sheet needs a name", parse_text,
+            [&options](std::string file) { options.output = file; });
+  add_value(app, "--exposure", "STOPS", "brighten by a factor of 2 a stop; negative darkens", parse_number,
+            [&options](double stops) { options.transform.exposure_stops = stops; });
+  add_value(
+      app, "--tone", "CURVE",
+      "none (cut at white, the default), reinhard, or log: bring what is beyond white into the picture",
+      choice<ToneCurve>(
+          {{"none", ToneCurve::none}, {"reinhard", ToneCurve::reinhard}, {"log", ToneCurve::logarithmic}}),
+      [&options](ToneCurve curve) { options.transform.tone = curve; });
+  add_value(app, "--white", "L", "luminance that the tone curve shows as white; default 1000", parse_number,
+            [&options](double white) { options.transform.white = white; });
+  add_value(app, "--eye", "EYE", "left (the default) or right, of a stereo pair",
+            choice<std::size_t>({{"left", 0}, {"right", 1}}),
+            [&options](std::size_t view) { options.view = view; });
+  add_value(app, "--columns", "N", "images in a row of a contact sheet", whole(1, 1000),
+            [&options](std::int64_t columns) { options.columns = static_cast<int>(columns); });
+  add_verbosity(app, state->quiet, nullptr);
+  parser.finish = [state]() -> Command {
+    ViewOptions finished = state->options;
+    if (finished.transform.white <= 0.0)
+      throw CLI::ValidationError("--white", "expected a number greater than 0");
+    finished.files = image_files(state->files);
+    if (finished.files.size() > 1 && finished.output.empty()) {
+      throw CLI::ValidationError("", "several images make one contact sheet: name it with -o");
+    }
+    if (state->quiet) finished.verbosity = Verbosity::quiet;
+    return finished;
+  };
+  return parser;
+}
+
+Parser info_parser() {
+  const auto files = std::make_shared<std::vector<std::string>>();
+  Parser parser{
+      make_app("info", "Tell what made an image: size, channels, scene, settings.", "info IMAGE.exr..."), {}};
+  parser.app->add_option("IMAGE.exr", *files);
+  parser.finish = [files]() -> Command { return InfoOptions{image_files(*files)}; };
+  return parser;
+}
+
+Parser parser_of(const std::string& name) {
+  if (name == "check") return check_parser();
+  if (name == "view") return view_parser();
+  if (name == "info") return info_parser();
+  if (name == "schema") return schema_parser();
+  return render_parser();
+}
+
+Parser make_parser(const std::string& name) {
+  Parser parser = parser_of(name);
+  parser.app->set_help_flag("-h,--help", "print this help")->group("Other");
+  return parser;
+}
+
+bool is_flag(const std::string& argument) {
+  return argument.size() > 1 && argument.front() == '-';
+}
+
+// Whether the argument after `flag` is its value, in whichever command has such a flag.
+bool takes_next(const std::string& flag, const std::vector<Parser>& parsers) {
+  const bool is_long = flag.starts_with("--");
+  if (is_long ? flag.find('=') != std::string::npos : flag.size() > 2) return false;
+  return std::any_of(parsers.begin(), parsers.end(), [&flag](const Parser& parser) {
+    const CLI::Option* option = parser.app->get_option_no_throw(flag);
+    return option != nullptr && option->get_items_expected_max() > 0;
+  });
+}
+
+// The index of the first argument that is neither a flag nor the value of one.
+std::size_t first_word(const std::vector<std::string>& arguments) {
+  std::vector<Parser> parsers;
+  for (const char* name : command_names) parsers.push_back(make_parser(name));
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == "--") return i + 1;
+    if (!is_flag(arguments[i])) return i;
+    if (takes_next(arguments[i], parsers)) ++i;
+  }
+  return arguments.size();
+}
+
+Answer usage_error(const std::string& command, const std::string& message) {
+  const std::string help = command.empty() ? "backlight --help" : "backlight " + command + " --help";
+  return {"backlight: " + message + "\nTry '" + help + "'.", true};
+}
+
+Answer unknown_argument(const std::string& command, const CLI::App& app,
+                        const std::vector<std::string>& extras) {
+  const auto flag = std::find_if(extras.begin(), extras.end(), is_flag);
+  if (flag == extras.end()) return usage_error(command, "unexpected argument '" + extras.front() + "'");
+  const std::string name = flag->substr(0, flag->find('='));
+  for (const char* other : command_names) {
+    const Parser parser = make_parser(other);
+    if (parser.app->get_option_no_throw(name) == nullptr) continue;
+    return usage_error(command, "'" + name + "' is an option of 'backlight " + other + "'");
+  }
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& one : option->get_lnames()) known.push_back("--" + one);
+  }
+  const std::string nearest = name.starts_with("--") ? nearest_name(name, known) : "";
+  return usage_error(command, "unknown option '" + name + "'" +
+                                  (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
+
+// CLI11 leaves two blank lines between groups, and one at the end.
+std::string one_blank_line(std::string text) {
+  for (std::size_t i = text.find("\n\n\n"); i != std::string::npos; i = text.find("\n\n\n", i))
+    text.erase(i, 1);
+  while (text.ends_with("\n\n")) text.pop_back();
+  return text;
+}
+
+Command parse_command(const std::string& name, std::vector<std::string> arguments) {
+  Parser parser = make_parser(name);
+  try {
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the end
+    parser.app->parse(std::move(arguments));
+    std::vector<std::string> extras = parser.app->remaining();
+    std::erase(extras, "--");
+    if (!extras.empty()) return unknown_argument(name, *parser.app, extras);
+    return parser.finish();
+  } catch (const CLI::CallForHelp&) {
+    return Answer{one_blank_line(parser.app->help()), false};
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string message = error.what();  // "--samples: 1 required N missing"
+    return usage_error(name, message.substr(0, message.find(':')) + " needs a value");
+  } catch (const CLI::ParseError& error) {
+    std::string message = error.what();
+    if (message.starts_with(": ")) message.erase(0, 2);
+    return usage_error(name, message);
+  }
+}
+
+}  // namespace
+
+Command parse_command_line(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return usage_error("", "no scene file is given");
+  const std::size_t place = first_word(arguments);
+  if (place >= arguments.size()) {
+    const auto asks = [&arguments](const char* flag) {
+      return std::find(arguments.begin(), arguments.end(), flag) != arguments.end();
+    };
+    if (asks("--help") || asks("-h")) return Answer{general_help(), false};
+    if (asks("--version")) return Answer{"Backlight " BACKLIGHT_VERSION "\n", false};
+    return parse_command("render", arguments);
+  }
+  const std::string& word = arguments[place];
+  std::vector<std::string> rest = arguments;
+  rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(place));
+  if (word == "help")
+    return rest.empty() ? Command{Answer{general_help(), false}} : parse_command(rest[0], {"--help"});
+  if (std::find(command_names.begin(), command_names.end(), word) != command_names.end()) {
+    return parse_command(word, std::move(rest));
+  }
+  const bool looks_like_a_file =
+      word.find_first_of("./") != std::string::npos || std::filesystem::exists(word);
+  if (!looks_like_a_file) {
+    const std::string nearest = nearest_name(word, {command_names.begin(), command_names.end()});
+    return usage_error("", "there is neither a command nor a file called '" + word + "'" +
+                               (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+  }
+  return parse_command("render", arguments);
+}
+
+}  // namespace backlight

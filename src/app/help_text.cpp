@@ -1,0 +1,47 @@
+#include "help_text.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace backlight {
+
+std::string general_help() {
+  return R"(Backlight renders scenes as special relativity shows them.
+
+Usage: backlight [render] SCENE.toml [options]
+       backlight COMMAND ...
+
+Commands:
+  render SCENE.toml   trace the images of a scene into OpenEXR files (the default)
+  check  SCENE.toml   look for mistakes in a scene and explain what it needs; renders nothing
+  view   IMAGE.exr    make a PNG to look at: exposure, tone curve, sRGB; contact sheets
+  info   IMAGE.exr    tell what made an image
+  schema              print the JSON Schema of the scene format, for editors
+
+'backlight COMMAND --help' lists the options of a command; 'backlight --version' prints the version.
+
+Exit status: 0 all images written; 1 an image failed; 2 the command line is wrong; 3 the scene is wrong;
+4 a file cannot be read or written; 128+n stopped by signal n.
+)";
+}
+
+std::string help_row(std::string option, const std::string& meaning) {
+  constexpr std::size_t indent = 31;
+  constexpr std::size_t width = 100;
+  std::string rows;
+  std::string line = std::move(option) + "  ";
+  line.resize(std::max(line.size(), indent), ' ');
+  std::istringstream words(meaning);
+  bool at_start = true;
+  for (std::string word; words >> word; at_start = false) {
+    if (!at_start && line.size() + 1 + word.size() > width) {
+      rows += std::exchange(line, std::string(indent, ' ')) + "\n";
+      at_start = true;
+    }
+    line += (at_start ? "" : " ") + word;
+  }
+  return rows + line + "\n";
+}
+
+}  // namespace backlight

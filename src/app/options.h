@@ -1,0 +1,78 @@
+// What was asked for on the command line, one structure a command.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "backlight/film/display.h"
+#include "backlight/film/exr.h"
+#include "backlight/film/image.h"
+#include "backlight/render/image_sequence.h"
+#include "backlight/render/progress.h"
+#include "backlight/scene/compile.h"
+
+namespace backlight {
+
+/// A scene file, and what is changed in it.
+struct SceneOptions {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;  ///< "path=value", of -D
+  ImageRequest request;                ///< camera and film; which frame is for the command to say
+};
+
+/// How much is said on stderr, errors apart.
+enum class Verbosity { quiet, normal, verbose };
+
+struct RenderOptions {
+  SceneOptions scene;
+  std::optional<OutputPattern> output;     ///< none: the scene's name, in the current folder
+  std::optional<std::vector<int>> frames;  ///< none: those of the scene
+  std::optional<double> time;              ///< one image at this scene time instead, in seconds
+  std::optional<PixelBox> crop;
+  ColourStorage storage = ColourStorage::automatic;
+  bool png = false;
+  int threads = 0;  ///< 0: usable_threads()
+  ProgressStyle progress = ProgressStyle::automatic;
+  Verbosity verbosity = Verbosity::normal;
+  std::filesystem::path statistics;  ///< empty: none
+  bool dry_run = false;
+  bool list_frames = false;
+};
+
+struct CheckOptions {
+  SceneOptions scene;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+struct SchemaOptions {
+  bool markdown = false;  ///< the reference page instead
+};
+
+struct ViewOptions {
+  std::vector<std::filesystem::path> files;  ///< several make a contact sheet
+  std::filesystem::path output;              ///< empty: the file's name with .png
+  DisplayTransform transform;
+  std::size_t view = 0;  ///< 0: left, or the only one; 1: right
+  int columns = 0;       ///< of a contact sheet; 0: as square as it can be
+  Verbosity verbosity = Verbosity::normal;
+};
+
+struct InfoOptions {
+  std::vector<std::filesystem::path> files;
+};
+
+/// Help or the version was asked for, and is to go to stdout; or the command line is wrong.
+struct Answer {
+  std::string text;
+  bool usage_error = false;
+};
+
+using Command = std::variant<Answer, RenderOptions, CheckOptions, SchemaOptions, ViewOptions, InfoOptions>;
+
+/// Reads the arguments after the program's name.
+Command parse_command_line(const std::vector<std::string>& arguments);
+
+}  // namespace backlight

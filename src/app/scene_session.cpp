@@ -1,0 +1,31 @@
+#include "scene_session.h"
+
+#include <utility>
+
+#include "backlight/scene/reader.h"
+#include "exit_codes.h"
+#include "messages.h"
+
+namespace backlight {
+
+SceneSession::SceneSession(const SceneOptions& options) {
+  ReadResult result = read_scene(options.file, options.overrides);
+  found_by_reading_ = std::move(result.diagnostics);
+  if (result.description) {
+    description_ = std::move(result.description);
+    return;
+  }
+  print(found_by_reading_);
+  exit_code_ = result.unreadable ? exit_file_trouble : exit_scene_wrong;
+}
+
+std::optional<Scene> SceneSession::compile(const ImageRequest& request) {
+  Diagnostics diagnostics = found_by_reading_;
+  std::optional<Scene> scene = backlight::compile(*description_, request, cache_, diagnostics);
+  if (!scene) exit_code_ = exit_scene_wrong;
+  if (!scene || !warnings_are_printed_) print(in_file_order(diagnostics, *description_));
+  warnings_are_printed_ = true;
+  return scene;
+}
+
+}  // namespace backlight

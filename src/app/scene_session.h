@@ -1,0 +1,36 @@
+// A scene file as a command uses it: read once, compiled for one image after the other.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "backlight/scene/compile.h"
+#include "options.h"
+
+namespace backlight {
+
+class SceneSession {
+ public:
+  /// Reads the file. What is wrong with it is kept for the first compile().
+  explicit SceneSession(const SceneOptions& options);
+
+  /// exit_success while nothing is wrong; then compile() may be called.
+  [[nodiscard]] int exit_code() const { return exit_code_; }
+
+  /// The scene of one image, or nothing, with the errors printed. Warnings are printed by the first call
+  /// alone.
+  std::optional<Scene> compile(const ImageRequest& request);
+
+  /// The frame numbers of the scene's [animation], or {1}.
+  [[nodiscard]] std::vector<int> frames() const { return animation_frames(*description_); }
+  [[nodiscard]] const Description& description() const { return *description_; }
+
+ private:
+  std::optional<Description> description_;
+  Diagnostics found_by_reading_;
+  ResourceCache cache_;
+  int exit_code_ = 0;
+  bool warnings_are_printed_ = false;
+};
+
+}  // namespace backlight

@@ -1,0 +1,66 @@
+#include "statistics.h"
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "backlight/base/json_text.h"
+
+namespace backlight {
+namespace {
+
+Failure cannot_write(const std::filesystem::path& path) {
+  return {"cannot write " + path.string() + ": " + std::strerror(errno)};
+}
+
+class JsonObject {
+ public:
+  JsonObject& number(const char* name, double value) { return member(name, json_number(value)); }
+  JsonObject& count(const char* name, std::uint64_t value) { return member(name, std::to_string(value)); }
+  JsonObject& text(const char* name, const std::string& value) { return member(name, json_quoted(value)); }
+  [[nodiscard]] std::string str() const { return "{" + members_ + "}"; }
+
+ private:
+  JsonObject& member(const char* name, const std::string& value) {
+    members_ += (members_.empty() ? "\"" : ",\"") + std::string(name) + "\":" + value;
+    return *this;
+  }
+  std::string members_;
+};
+
+}  // namespace
+
+std::string statistics_json(const Scene& scene, const RenderSettings& settings,
+                            const RenderStatistics& statistics, const std::filesystem::path& file) {
+  const PixelBox whole{0, 0, scene.film.width, scene.film.height};
+  const PixelBox window = settings.crop.value_or(whole);
+  JsonObject object;
+  object.number("frame", scene.frame).number("time", scene.time).text("file", file.string());
+  object.number("width", window.width())
+      .number("height", window.height())
+      .number("samples", scene.film.samples);
+  object.text("model", settings.wavelengths > 0 ? "spectral" : "rgb")
+      .number("wavelengths", settings.wavelengths);
+  object.number("threads", statistics.threads).number("seconds", statistics.seconds);
+  object.count("cameraRays", statistics.rays.primary).count("shadowRays", statistics.rays.shadow);
+  object.count("dataRays", statistics.rays.data).count("nonFinitePixels", statistics.rays.non_finite);
+  return object.str();
+}
+
+Result<StatisticsFile> StatisticsFile::open(const std::filesystem::path& path) {
+  StatisticsFile statistics;
+  statistics.path_ = path;
+  if (path.empty()) return statistics;
+  statistics.file_.open(path, std::ios::trunc);
+  if (!statistics.file_) return cannot_write(path);
+  return statistics;
+}
+
+Result<void> StatisticsFile::write(const std::string& line) {
+  if (path_.empty()) return {};
+  file_ << line << '\n' << std::flush;
+  if (!file_) return cannot_write(path_);
+  return {};
+}
+
+}  // namespace backlight

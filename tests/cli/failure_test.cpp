@@ -1,0 +1,188 @@
+// When things go wrong: the exit code, the message, and that nothing half-written stays behind.
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "program.h"
+
+namespace backlight::test {
+namespace {
+
+using Files = std::vector<std::string>;
+
+class FailureTest : public ProgramTest {
+ protected:
+  // Most test machines in containers run as root, whom no permission stops: the program runs as nobody then.
+  void as_ordinary_user() {
+    if (geteuid() != 0) return;
+    std::filesystem::permissions(folder, std::filesystem::perms(0755));
+    in_child = [] {
+      if (setgid(65534) != 0 || setuid(65534) != 0) _exit(126);
+    };
+  }
+
+  // A picture that takes hours, and each of its tiles many seconds.
+  void write_slow_scene() { write_scene("slow.toml"); }
+  const std::vector<std::string> slow{"slow.toml", "-r", "4000x4000", "-s",          "64",
+                                      "-t",        "2",  "-o",        "out/slow.exr"};
+
+  // Waits until the picture is being traced: its folder has been made.
+  void wait_until_rendering() const {
+    for (int i = 0; i < 1000 && !exists("out"); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  }
+};
+
+TEST_F(FailureTest, MissingSceneIsFileTrouble) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"none.toml"},
+                                                    {"check", "none.toml"},
+                                                    {"render", "none.toml", "--dry-run"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_NE(outcome.err.find("none.toml"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(FailureTest, FolderInsteadOfASceneIsFileTrouble) {
+  std::filesystem::create_directory(folder / "work" / "dir");
+  EXPECT_EQ(run({"dir"}).code, 4);
+}
+
+TEST_F(FailureTest, MissingImageIsFileTrouble) {
+  for (const char* command : {"info", "view"}) {
+    const Outcome outcome = run({command, "none.exr"});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_NE(outcome.err.find("none.exr"), std::string::npos) << outcome.err;
+  }
+  write("broken.exr", "this is not an OpenEXR file");
+  EXPECT_EQ(run({"info", "broken.exr"}).code, 4);
+  EXPECT_EQ(run({"view", "broken.exr"}).code, 4);
+  EXPECT_EQ(files(), Files{"broken.exr"});
+}
+
+TEST_F(FailureTest, WrongSceneIsToldAndNotRendered) {
+  write_scene("scene.toml", "[[object]]\nshape = \"spere\"\n[[object]]\nshape = \"box\"\nsise = [1, 1, 1]\n");
+  for (const char* command : {"render", "check"}) {
+    const Outcome outcome = run({command, "scene.toml"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_NE(outcome.err.find("scene.toml:16:"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("sphere"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("scene.toml:19:"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("3 errors\n"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(files(), Files{"scene.toml"});
+}
+
+TEST_F(FailureTest, WrongTomlIsAWrongScene) {
+  write("scene.toml", "c = = 1\n");
+  const Outcome outcome = run({"scene.toml"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("scene.toml:1:"), std::string::npos) << outcome.err;
+}
+
+TEST_F(FailureTest, WrongOverrideIsAWrongScene) {
+  write_scene();
+  const Outcome outcome = run({"scene.toml", "-D", "camera.fof=40"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("fov"), std::string::npos) << outcome.err;
+}
+
+TEST_F(FailureTest, UnknownCameraIsAWrongScene) {
+  write_scene();
+  EXPECT_EQ(run({"scene.toml", "--camera", "nobody"}).code, 3);
+}
+
+TEST_F(FailureTest, FrameThatCannotBeLeavesTheOthers) {
+  // At frame 3, t = 2 and the object would be as fast as light.
+  write_scene(
+      "scene.toml",
+      "[animation]\nfps = 1\nframes = [1, 4]\n"
+      "[[object]]\nshape = \"box\"\nsize = [1, 1, 1]\nvelocity = [\"0.5*t - 2*max(0, t - 2)\", 0, 0]\n");
+  const Outcome outcome = run({"scene.toml"});
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_EQ(files(), (Files{"scene.0001.exr", "scene.0002.exr", "scene.0004.exr", "scene.toml"}));
+  EXPECT_EQ(run({"check", "scene.toml"}).code, 3);
+}
+
+TEST_F(FailureTest, UnwritableFolderIsFoundBeforeRendering) {
+  write_slow_scene();
+  std::filesystem::create_directory(folder / "work" / "out");
+  std::filesystem::permissions(folder / "work" / "out", std::filesystem::perms(0555));
+  as_ordinary_user();
+  const Outcome outcome = run(slow);
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("out/slow.exr"), std::string::npos) << outcome.err;
+  EXPECT_LT(outcome.seconds, 10.0);
+  EXPECT_EQ(files(), Files{"slow.toml"});
+}
+
+TEST_F(FailureTest, FileInTheWayOfAFolderIsFileTrouble) {
+  write_scene();
+  write("out", "a file");
+  EXPECT_EQ(run({"scene.toml", "-o", "out/a.exr"}).code, 4);
+  std::filesystem::create_directory(folder / "work" / "b.exr");
+  EXPECT_EQ(run({"scene.toml", "-o", "b.exr/x/y.exr", "--stats", "/nowhere/s"}).code, 4);
+}
+
+TEST_F(FailureTest, FullDiskLeavesTheOldFile) {
+  write_scene();
+  ASSERT_EQ(run({"scene.toml", "-o", "a.exr"}).code, 0);
+  const std::string before = read("a.exr");
+  // Files may grow to 4 kB and no further: the kernel then refuses as a full disk does.
+  in_child = [] {
+    const rlimit limit{4096, 4096};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  };
+  const Outcome outcome = run({"scene.toml", "-r", "200x200", "-s", "2", "--float", "-o", "a.exr"});
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("a.exr"), std::string::npos) << outcome.err;
+  EXPECT_EQ(read("a.exr"), before);
+  EXPECT_EQ(files(), (Files{"a.exr", "scene.toml"}));
+}
+
+TEST_F(FailureTest, FullStandardOutputIsNoticed) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+  in_child = [] {
+    if (freopen("/dev/full", "w", stdout) == nullptr) _exit(126);
+  };
+  const Outcome outcome = run({"schema"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_EQ(outcome.err, "backlight: error: cannot write to standard output\n");
+}
+
+TEST_F(FailureTest, SignalsStopItAtOnceAndLeaveNothing) {
+  write_slow_scene();
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    std::filesystem::remove_all(folder / "work" / "out");
+    std::chrono::steady_clock::time_point sent;
+    const Outcome outcome = run_and(slow, [&](int process) {
+      wait_until_rendering();
+      sent = std::chrono::steady_clock::now();
+      kill(process, number);
+    });
+    const std::chrono::duration<double> reaction = std::chrono::steady_clock::now() - sent;
+    EXPECT_EQ(outcome.code, 128 + number) << outcome.err;
+    EXPECT_LT(reaction.count(), 1.0);
+    EXPECT_EQ(files(), Files{"slow.toml"});
+  }
+}
+
+TEST_F(FailureTest, IgnoredSignalsStayIgnored) {
+  write_slow_scene();
+  in_child = [] { signal(SIGHUP, SIG_IGN); };
+  const Outcome outcome = run_and(slow, [&](int process) {
+    wait_until_rendering();
+    kill(process, SIGHUP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    kill(process, SIGTERM);
+  });
+  EXPECT_EQ(outcome.code, 128 + SIGTERM);
+}
+
+}  // namespace
+}  // namespace backlight::test

@@ -1,0 +1,51 @@
+// Runs the program in a folder of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace backlight::test {
+
+struct Outcome {
+  int code = -1;  ///< exit code; 1000 + n when killed by signal n
+  std::string out;
+  std::string err;
+  double seconds = 0.0;
+};
+
+/// Each test works in an empty temporary folder, which is the program's current folder too.
+class ProgramTest : public testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  /// Runs backlight with these arguments to its end. `environment` is added: "NAME=value". A run that takes
+  /// more than two minutes is killed, and fails the test.
+  Outcome run(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+
+  /// The same, with `while_running(process id)` called right after the start.
+  Outcome run_and(const std::vector<std::string>& arguments, const std::function<void(int)>& while_running);
+
+  /// What the child does before it becomes the program: resource limits, another user.
+  std::function<void()> in_child;
+
+  /// Writes a file into the folder.
+  void write(const std::string& name, const std::string& text) const;
+
+  /// A small scene that renders in an instant, written as NAME.
+  void write_scene(const std::string& name = "scene.toml", const std::string& more = "") const;
+
+  [[nodiscard]] std::string read(const std::string& name) const;
+  [[nodiscard]] bool exists(const std::string& name) const;
+  /// All files in the folder and below, hidden ones too, sorted.
+  [[nodiscard]] std::vector<std::string> files() const;
+
+  std::filesystem::path folder;
+};
+
+}  // namespace backlight::test
