@@ -1,0 +1,73 @@
+// The same bits for any number of threads, crop and view of the work.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "rendering.h"
+
+namespace backlight::test {
+namespace {
+
+// Everything that could tempt a renderer into an order: samples, stars, regions, flicker, many frames,
+// textures.
+std::string scene() {
+  std::string s = R"toml(
+[film]
+resolution = [75, 53]
+samples = 3
+aovs = ["Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId"]
+[camera]
+position = [0, 1, -7]
+direction = [0, -0.1, 1]
+beta = [0.2, 0, 0.4]
+[background]
+color = [0.1, 0.2, 0.4]
+stars = { count = 3000, seed = 4 }
+[[light]]
+position = [-4, 6, -6]
+intensity = "300 + 100*sin(3*t)"
+[[effects.region]]
+rect = [0.4, 0.3, 0.8, 0.9]
+doppler = false
+searchlight = "off"
+[[object]]
+shape = "plane"
+position = [0, -1, 0]
+material = { checker = { colors = [[0.8, 0.8, 0.8], [0.3, 0.1, 0.1]], size = 1 } }
+)toml";
+  for (int i = 0; i < 12; ++i) {
+    s += "[[object]]\nshape = \"sphere\"\nradius = 0.5\nposition = [" + std::to_string(i % 4 * 1.5 - 2) +
+         ", 0, " + std::to_string(i / 4 * 2) + "]\nbeta = [" + std::to_string(0.05 * i) + ", 0, 0.3]\n";
+  }
+  return s;
+}
+
+void expect_equal_bits(const Rendering& whole, const Rendering& part) {
+  const PixelBox& window = part.image.layout().data;
+  ASSERT_EQ(whole.image.channel_count(), part.image.channel_count());
+  for (std::size_t channel = 0; channel < whole.image.channel_count(); ++channel) {
+    for (int y = window.y0; y < window.y1; ++y) {
+      for (int x = window.x0; x < window.x1; ++x) {
+        const float a = whole.image.at(channel, x, y);
+        const float b = part.image.at(channel, x, y);
+        ASSERT_EQ(std::memcmp(&a, &b, sizeof a), 0) << whole.image.layout().channels[channel].name << " at "
+                                                    << x << ' ' << y << ": " << a << " and " << b;
+      }
+    }
+  }
+}
+
+TEST(SameBits, ForAnyNumberOfThreads) {
+  const Rendering one = render_text(scene(), {.threads = 1});
+  for (const int threads : {2, 3, 8}) expect_equal_bits(one, render_text(scene(), {.threads = threads}));
+}
+
+TEST(SameBits, ForAnyCrop) {
+  const Rendering whole = render_text(scene());
+  for (const PixelBox crop : {PixelBox{0, 0, 1, 1}, PixelBox{17, 5, 60, 40}, PixelBox{74, 52, 75, 53}}) {
+    expect_equal_bits(whole, render_text(scene(), {.crop = crop}));
+  }
+}
+
+}  // namespace
+}  // namespace backlight::test

@@ -1,0 +1,152 @@
+"""Brightness without colour: Lambert surfaces, white lights, the searchlight factors.
+
+Covers what can be said exactly per RGB channel: materials with `color`, white highlights and white `emission`,
+lights without colour, `doppler = false`. Anything else raises `Unsupported` and the colour is then left out.
+"""
+from mpmath import mp, mpf
+
+from expression import evaluate_precisely
+from minkowski import ONE, ZERO, along, dot, norm, scaled, subtract, unit
+
+COLOURED = ("temperature", "spectrum", "emission_color", "texture", "checker", "color_texture")
+
+
+class Unsupported(ValueError):
+    """The scene asks for colour that this reference does not compute."""
+
+
+class Searchlight:
+    """The product F of the three switchable factors of docs/physics.md section 3."""
+
+    def __init__(self, effects):
+        mode = effects.get("searchlight", "exact")
+        on = mode != "off"
+        self.energy = effects.get("energy", on)
+        self.rate = effects.get("rate", {"exact": "exact", "paper": "dilation", "off": "off"}[mode])
+        self.solid_angle = effects.get("solid_angle", on)
+
+    def plane_wave_factor(self, doppler, gamma):
+        """What scales the irradiance of a plane wave: there is no solid angle to change."""
+        energy = doppler if self.energy else ONE
+        return energy * {"exact": doppler, "dilation": gamma, "off": ONE}[self.rate]
+
+    def factor(self, doppler, gamma):
+        """F for a Doppler factor and the Lorentz factor of the two frames' relative velocity."""
+        return self.plane_wave_factor(doppler, gamma) * (doppler ** 2 if self.solid_angle else ONE)
+
+
+class Shader:
+    """Radiance of hits, carried to the camera."""
+
+    def __init__(self, tracer):
+        self.tracer, self.scene = tracer, tracer.scene
+        self.searchlight = Searchlight(self.scene.effects)
+        self.refusal = self._refusal()
+
+    def _refusal(self):
+        """Why the colours of this scene are not computed, or None."""
+        scene = self.scene
+        if scene.effects.get("doppler", True) and self._something_moves():
+            return "doppler = true"
+        if scene.effects.get("region"):
+            return "effect regions"
+        tables = [o.material for o in scene.objects] + [l.table for l in scene.lights]
+        for table in tables + [scene.background]:
+            if any(key in table for key in COLOURED):
+                return "colour other than RGB reflectance"
+        if any("color" in light.table for light in scene.lights) or "stars" in scene.background:
+            return "coloured lights or stars"
+        return None
+
+    def _something_moves(self):
+        """Whether any two frames in use move against each other."""
+        used = [o.frame for o in self.scene.objects] + [l.frame for l in self.scene.lights]
+        return any(f.gamma_relative_to(self.scene.camera.frame) > 1 for f in used)
+
+    def film(self, hit, ray, light_delay):
+        """(RGB film value of a traced camera ray, which lights reach the hit)."""
+        if self.refusal:
+            raise Unsupported(self.refusal)
+        camera = self.scene.camera.frame
+        if hit is None:
+            return self._background(ray, light_delay), ()
+        diffuse, highlight, reached = ZERO, ZERO, []
+        for light in self.scene.lights:
+            if light.kind == "ambient":
+                diffuse += self.scene.number(light.table["radiance"])
+                continue
+            received, arriving = self._irradiance(light, hit)
+            reached.append(received > 0)
+            diffuse += received / mp.pi
+            highlight += received * self._phong(hit, arriving)
+        own = self.scene.number(hit.obj.material.get("emission", 0))
+        colour = self._numbers(hit.obj.material.get("color", [1, 1, 1]))
+        factor = ONE
+        if light_delay:
+            factor = self.searchlight.factor(1 / abs(hit.ray[0]), hit.obj.frame.gamma_relative_to(camera))
+        rgb = [factor * (rho * diffuse + highlight + own) for rho in colour]
+        return rgb, tuple(reached)
+
+    def _phong(self, hit, arriving):
+        """k (n + 2) / (2 pi) cos^n(alpha): alpha between the mirrored light and the viewer, rest frame."""
+        share = self.scene.number(hit.obj.material.get("specular", 0))
+        if share == 0:
+            return ZERO
+        exponent = self.scene.number(hit.obj.material.get("shininess", 50))
+        incoming = unit(arriving[1:])
+        mirrored = along(incoming, hit.normal, -2 * dot(incoming, hit.normal))
+        cosine = -dot(mirrored, unit(hit.ray[1:]))
+        return share * (exponent + 2) / (2 * mp.pi) * cosine ** exponent if cosine > 0 else ZERO
+
+    def _numbers(self, values):
+        """RGB of a table as mpf."""
+        return self.scene.vector(values)
+
+    def _background(self, ray, light_delay):
+        """The background's colour at infinity, carried from its frame to the camera."""
+        colour = self._numbers(self.scene.background.get("color", [0, 0, 0]))
+        frame, camera = self.scene.background_frame, self.scene.camera.frame
+        factor = ONE
+        if light_delay:
+            doppler = 1 / abs(self.tracer.carry(frame, camera, ray)[0])
+            factor = self.searchlight.factor(doppler, frame.gamma_relative_to(camera))
+        return scaled(colour, factor)
+
+    def _irradiance(self, light, hit):
+        """(irradiance, four-vector of its travel) of a hit by one light, in the rest frame, shadows included."""
+        compute = {"point": self._from_point, "distant": self._from_infinity}[light.kind]
+        return compute(light, hit)
+
+    def _from_point(self, light, hit):
+        """E = F I cos(theta) / r_O^2, from the retarded event of the light (section 4)."""
+        frame = hit.obj.frame
+        at_light = light.frame.event_from(frame, hit.event)
+        separation = subtract(at_light[1:], light.position)
+        r_light = norm(separation)
+        arriving = self.tracer.carry(frame, light.frame, [r_light] + separation)
+        r_object = arriving[0]
+        cosine = -dot(hit.normal, arriving[1:]) / r_object
+        if cosine <= 0 or self.tracer.blocked(frame, hit.event, scaled(arriving, -ONE), ONE):
+            return ZERO, arriving
+        doppler = r_object / r_light
+        factor = self.searchlight.factor(doppler, frame.gamma_relative_to(light.frame))
+        own_time = (at_light[0] - r_light) / self.scene.c
+        return factor * self._intensity(light, own_time) * cosine / r_object ** 2, arriving
+
+    def _intensity(self, light, own_time):
+        """Radiant intensity at the light's own time (scene units)."""
+        value = light.table.get("intensity", 1)
+        if not isinstance(value, str):
+            return mpf(value)
+        return evaluate_precisely(value, {k: mpf(v) for k, v in self.scene.variables.items()} | {"t": own_time})
+
+    def _from_infinity(self, light, hit):
+        """E = D^2 E_S cos(theta), the direction aberrated into the rest frame."""
+        frame = hit.obj.frame
+        arriving = self.tracer.carry(frame, light.frame, [ONE] + light.direction)
+        doppler = arriving[0]
+        cosine = -dot(hit.normal, arriving[1:]) / doppler
+        if cosine <= 0 or self.tracer.blocked(frame, hit.event, scaled(arriving, -ONE), None):
+            return ZERO, arriving
+        factor = self.searchlight.plane_wave_factor(doppler, frame.gamma_relative_to(light.frame))
+        return factor * self.scene.number(light.table["irradiance"]) * cosine, arriving
