@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# Renders every picture of docs/gallery.md: EXR and PNG files in out/gallery/.
+#
+#   scripts/gallery.sh [--refresh-docs] [NAME ...]
+#
+#   NAME             only these, by the name of the PNG without .png; the default is all (some minutes on two CPUs)
+#   --refresh-docs   copy the PNG files to docs/images/ as well
+#
+# Builds the program unless it is built; BACKLIGHT=/path/to/backlight uses another one. Figure 4 is drawn by gnuplot.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+refresh=no
+wanted=()
+for argument in "$@"; do
+  case $argument in
+    --refresh-docs) refresh=yes ;;
+    -*) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    *) wanted+=("$argument") ;;
+  esac
+done
+
+out=out/gallery
+known=()
+mkdir -p "$out"
+if [[ -z ${BACKLIGHT:-} ]]; then
+  BACKLIGHT=build/release/bin/backlight
+  scripts/install.sh build charts
+  if [[ ! -x $BACKLIGHT ]]; then
+    cmake --preset release -DBACKLIGHT_TESTS=OFF
+    cmake --build --preset release --target backlight backlight_oiio
+  fi
+fi
+
+is_wanted() {
+  known+=("$1")
+  ((${#wanted[@]} == 0)) && return 0
+  local name
+  for name in "${wanted[@]}"; do [[ $name == "$1" ]] && return 0; done
+  return 1
+}
+
+publish() {
+  echo "$out/$1.png"
+  if [[ $refresh == yes ]]; then
+    mkdir -p docs/images
+    cp "$out/$1.png" "docs/images/$1.png"
+  fi
+}
+
+# figure NAME SCENE [render options ...] [-- view options ...]: one picture
+figure() {
+  local name=$1 scene=$2
+  shift 2
+  is_wanted "$name" || return 0
+  local render=()
+  while (($#)) && [[ $1 != -- ]]; do render+=("$1"); shift; done
+  (($#)) && shift
+  "$BACKLIGHT" render "scenes/$scene.toml" -o "$out/$name.exr" "${render[@]}"
+  "$BACKLIGHT" view "$out/$name.exr" -o "$out/$name.png" -q "$@"
+  publish "$name"
+}
+
+# sheet NAME SCENE FRAMES COLUMNS [render options ...]: some images of an animation side by side
+sheet() {
+  local name=$1 scene=$2 frames=$3 columns=$4
+  shift 4
+  is_wanted "$name" || return 0
+  rm -f "$out/$name".[0-9][0-9][0-9][0-9].exr
+  "$BACKLIGHT" render "scenes/$scene.toml" -f "$frames" -o "$out/$name.####.exr" "$@"
+  "$BACKLIGHT" view "$out/$name".[0-9][0-9][0-9][0-9].exr --columns "$columns" -o "$out/$name.png" -q
+  publish "$name"
+}
+
+all_effects=(-D effects.doppler=true -D 'effects.searchlight="exact"')
+
+figure default default
+figure fig1-tram-interior fig1-tram-interior -- --tone reinhard --white 60
+figure fig2a-tram-rest fig2a-tram-rest
+figure fig2b-tram-terrell fig2b-tram-terrell
+figure fig2b-tram-all-effects fig2b-tram-terrell "${all_effects[@]}"
+figure fig2c-tram-no-light-delay fig2c-tram-no-light-delay
+figure fig3-earth fig3-earth
+if is_wanted fig4-aberration; then
+  scripts/install.sh charts
+  scripts/fig4_aberration.py "$BACKLIGHT" "$out"
+  gnuplot -e "data='$out/fig4-aberration.dat'; picture='$out/fig4-aberration.png'" scripts/fig4_aberration.gp
+  publish fig4-aberration
+fi
+figure fig5a-street-mercator-rest fig5a-street-mercator-rest
+figure fig5b-street-mercator-0.9c fig5b-street-mercator-0.9c
+figure fig6-starfield fig6-starfield
+figure fig6b-real-stars-rest fig6b-real-stars -D params.v=0
+figure fig6b-real-stars fig6b-real-stars
+figure fig7-tram-shadow fig7-tram-shadow -- --tone reinhard --white 8 --exposure 0.5
+figure terrell-row terrell-row
+sheet street-lamp-flicker street-lamp-flicker 1-16x5 2 -r 380x253
+sheet lattice-superluminal lattice-superluminal 1-6 3 -r 345x230
+
+for name in "${wanted[@]}"; do
+  case " ${known[*]} " in
+    *" $name "*) ;;
+    *) echo "scripts/gallery.sh: no picture '$name'; there are: ${known[*]}" >&2; exit 2 ;;
+  esac
+done

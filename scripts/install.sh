@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that a group of tasks needs, and only those that are missing.
+#
+#   scripts/install.sh [build] [test] [ci] [bench] [charts] [oracle]      (default: build)
+#
+#   build    compiler, CMake and libraries: what scripts/render.sh needs
+#   test     what the tests need besides
+#   ci       the second compiler and the formatter of .ci/run
+#   bench    kernel benchmarks
+#   charts   what scripts/gallery.sh and the charts of docs/ need besides
+#   oracle   mpmath, to recompute the reference values that the tests hold as literals
+#
+# Made for Debian 12. With everything present it needs neither root nor network.
+set -euo pipefail
+
+declare -A packages=(
+  [build]="g++ cmake ninja-build pkgconf libopenexr-dev libopenimageio-dev libglm-dev libtomlplusplus-dev libcli11-dev"
+  [test]="libgtest-dev nlohmann-json3-dev"
+  [ci]="clang-14 clang-format-14"
+  [bench]="libbenchmark-dev"
+  [charts]="gnuplot-nox python3"
+  [oracle]="python3 python3-mpmath"
+)
+
+wanted=()
+for group in "${@:-build}"; do
+  if [[ -z ${packages[$group]:-} ]]; then
+    echo "scripts/install.sh: no group '$group'; there are: build test ci bench charts oracle" >&2
+    exit 2
+  fi
+  read -ra names <<<"${packages[$group]}"
+  wanted+=("${names[@]}")
+done
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "Not a Debian system: going on in the hope that the equivalents of these are installed: ${wanted[*]}" >&2
+  exit 0
+fi
+
+missing=()
+for name in "${wanted[@]}"; do
+  [[ $(dpkg-query -W -f='${db:Status-Status}' "$name" 2>/dev/null) == installed* ]] || missing+=("$name")
+done
+((${#missing[@]})) || exit 0
+
+as_root=()
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "These packages are missing, and installing them needs root. As root, run:" >&2
+    echo "  apt-get update && apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "Installing: ${missing[*]}"
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
