@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -55,6 +57,12 @@ class RenderRun {
   int make_or_explain(const Scene& scene, const PlannedImage& image) {
     try {
       return make(scene, image);
+    } catch (const std::bad_alloc&) {
+      const FilmSettings& film = scene.film;
+      progress_.say("backlight: error: " + image.exr.string() + ": not enough memory for an image of " +
+                    std::to_string(film.width) + "x" + std::to_string(film.height) +
+                    " pixels; render it in parts with --crop");
+      return exit_frame_failed;
     } catch (const std::exception& error) {
       progress_.say("backlight: error: " + image.exr.string() + ": " + error.what() +
                     "\n  again: backlight render " + options_.scene.file.string() + image.arguments());
@@ -67,7 +75,7 @@ class RenderRun {
     settings.threads = options_.threads > 0 ? options_.threads : usable_threads();
     settings.crop = options_.crop;
     settings.wavelengths = needs_of(scene).wavelengths;
-    settings.image_number = static_cast<std::int64_t>(std::floor(scene.frame));
+    settings.image_number = static_cast<std::int64_t>(std::floor(std::clamp(scene.frame, -1e15, 1e15)));
     progress_.begin_image(planned.exr.string(), tile_count(scene, settings));
     const auto rendered = render_image(scene, settings, stop_requested(), &progress_);
     if (!rendered) return exit_stopped;

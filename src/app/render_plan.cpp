@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "backlight/base/json_text.h"
+
 namespace backlight {
 namespace {
 
@@ -27,7 +29,7 @@ Result<OutputPattern> output_pattern(const RenderOptions& options) {
 
 std::string PlannedImage::arguments() const {
   std::string text;
-  if (request.time) text += " --time " + std::to_string(*request.time);
+  if (request.time) text += " --time " + json_number(*request.time);
   if (request.frame) text += " -f " + std::to_string(*request.frame);
   return text;
 }

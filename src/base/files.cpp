@@ -36,7 +36,7 @@ fs::path temporary_name(const fs::path& folder) {
 int flush_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) {
-    return errno;
+    return errno == EACCES ? 0 : errno;  // a folder may be written to without being readable
   }
   const int error_number = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);

@@ -1,5 +1,6 @@
 #include "backlight/camera/projection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,8 +23,10 @@ Vec3 components(const Lens& lens, const Vec3& d) {
   return {glm::dot(d, lens.forward), glm::dot(d, lens.right), glm::dot(d, lens.up)};
 }
 
+// The seam behind the camera is both edges of the image; it is shown at the left one.
 double longitude_to_x(const Lens& lens, const Vec3& c) {
-  return (std::atan2(c.y, c.x) / (2.0 * pi) + 0.5) * lens.width;
+  const double x = (std::atan2(c.y, c.x) / (2.0 * pi) + 0.5) * lens.width;
+  return x < lens.width ? x : 0.0;
 }
 
 std::optional<ImagePoint> on_film(const Lens& lens, double x, double y) {
@@ -80,7 +83,6 @@ std::optional<Vec3> direction_at(const Lens& lens, const ImagePoint& point) {
 
 std::optional<ImagePoint> point_of(const Lens& lens, const Vec3& direction) {
   const Vec3 c = components(lens, direction);
-  const double length = glm::length(c);
   switch (lens.projection) {
     case Projection::perspective: {
       if (c.x <= 0.0) return std::nullopt;
@@ -89,14 +91,15 @@ std::optional<ImagePoint> point_of(const Lens& lens, const Vec3& direction) {
     }
     case Projection::equirectangular: {
       const double latitude = std::atan2(c.z, std::sqrt(c.x * c.x + c.y * c.y));
-      return on_film(lens, longitude_to_x(lens, c), (0.5 - latitude / pi) * lens.height);
+      const double y = (0.5 - latitude / pi) * lens.height;
+      return on_film(lens, longitude_to_x(lens, c), std::min(y, std::nextafter(lens.height, 0.0)));
     }
     case Projection::mercator: {
       const double m = std::asinh(c.z / std::sqrt(c.x * c.x + c.y * c.y));
       return on_film(lens, longitude_to_x(lens, c), 0.5 * lens.height - m * lens.width / (2.0 * pi));
     }
     case Projection::fisheye:
-      return fisheye_point(lens, c / length);
+      return fisheye_point(lens, c);
   }
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 #include "channels.h"
 
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace backlight {
@@ -63,21 +64,29 @@ bool has_data_channels(const Scene& scene) {
 }
 
 PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
-    : scene_(scene), image_(image), first_(view * channels_of_one_view(scene).size()) {}
-
-void PixelWriter::colour(int x, int y, const LinearRgb& rgb, double alpha) {
-  const std::array<double, 4> values{rgb.r, rgb.g, rgb.b, alpha};
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    image_.at(first_ + i, x, y) = static_cast<float>(values[i]);
+    : image_(image), first_(view * channels_of_one_view(scene).size()) {
+  for (const DataChannel& channel : data_channels) {
+    if (asked_for(scene, channel.aov)) data_.push_back(channel.value);
   }
 }
 
-void PixelWriter::data(int x, int y, const SurfaceRecord& record) {
-  std::size_t channel = first_ + 4;
-  for (const DataChannel& data : data_channels) {
-    if (!asked_for(scene_, data.aov)) continue;
-    image_.at(channel++, x, y) = static_cast<float>(data.value(record));
-  }
+bool PixelWriter::write(std::size_t channel, int x, int y, double value) {
+  const auto stored = static_cast<float>(value);
+  image_.at(first_ + channel, x, y) = stored;
+  return std::isfinite(stored);
+}
+
+bool PixelWriter::colour(int x, int y, const LinearRgb& rgb, double alpha) {
+  bool finite = write(0, x, y, rgb.r);
+  finite &= write(1, x, y, rgb.g);
+  finite &= write(2, x, y, rgb.b);
+  return finite & write(3, x, y, alpha);
+}
+
+bool PixelWriter::data(int x, int y, const SurfaceRecord& record) {
+  bool finite = true;
+  for (std::size_t i = 0; i < data_.size(); ++i) finite &= write(4 + i, x, y, data_[i](record));
+  return finite;
 }
 
 }  // namespace backlight

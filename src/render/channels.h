@@ -19,13 +19,16 @@ class PixelWriter {
  public:
   PixelWriter(const Scene& scene, Image& image, std::size_t view);
 
-  void colour(int x, int y, const LinearRgb& rgb, double alpha);
-  void data(int x, int y, const SurfaceRecord& record);
+  /// Each returns whether all it wrote is finite as a float.
+  bool colour(int x, int y, const LinearRgb& rgb, double alpha);
+  bool data(int x, int y, const SurfaceRecord& record);
 
  private:
-  const Scene& scene_;
+  bool write(std::size_t channel, int x, int y, double value);
+
   Image& image_;
   std::size_t first_;  // channel
+  std::vector<double (*)(const SurfaceRecord&)> data_;
 };
 
 }  // namespace backlight

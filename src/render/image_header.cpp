@@ -1,7 +1,6 @@
 #include "backlight/render/image_header.h"
 
 #include <charconv>
-#include <cstdio>
 
 namespace backlight {
 namespace {
@@ -47,10 +46,6 @@ std::vector<std::string> region_texts(const Scene& scene) {
   return texts;
 }
 
-Vec3 rounded(const ExtendedVec3& v) {
-  return {double(v[0]), double(v[1]), double(v[2])};
-}
-
 }  // namespace
 
 std::string effects_text(const Effects& effects) {
@@ -61,14 +56,14 @@ std::string effects_text(const Effects& effects) {
 ExrHeader image_header(const Scene& scene, const ImageOrigin& origin,
                        std::optional<std::int64_t> creation_time) {
   const CameraView& camera = scene.camera;
-  const Vec3 celerity = rounded(camera.celerity);
+  const Vec3 celerity = camera.celerity.rounded();
   const double gamma = double(lorentz_factor(camera.celerity));
 
   ExrHeader header;
   header.software = origin.software;
   header.creation_time = creation_time;
-  header.world_to_camera =
-      world_to_camera_matrix(rounded(camera.event.x), camera.lens.right, camera.lens.up, camera.lens.forward);
+  header.world_to_camera = world_to_camera_matrix(camera.event.x.rounded(), camera.lens.right, camera.lens.up,
+                                                  camera.lens.forward);
   auto& list = header.attributes;
   list.push_back({"backlight/scene", origin.scene_file});
   list.push_back({"backlight/sceneSha256", origin.scene_sha256});

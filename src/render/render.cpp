@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "backlight/base/thread_pool.h"
 #include "backlight/camera/sampling.h"
@@ -57,18 +56,18 @@ class ViewRenderer {
       ++covered;
     }
     LinearRgb colour = sum / double(samples);
-    if (covered > 0) colour += tracer_.stars(x, y, scratch);
-    if (!std::isfinite(colour.r + colour.g + colour.b)) ++scratch.counts.non_finite;
-    writer_.colour(x, y, colour, double(covered) / samples);
-    if (has_data_channels(scene)) data(x, y, scratch);
+    if (covered > 0) colour += tracer_.stars(x, y, eye_, scratch);
+    bool finite = writer_.colour(x, y, colour, double(covered) / samples);
+    if (has_data_channels(scene)) finite &= data(x, y, scratch);
+    if (!finite) ++scratch.counts.non_finite;
   }
 
  private:
-  void data(int x, int y, Scratch& scratch) {
+  bool data(int x, int y, Scratch& scratch) {
     const Scene& scene = tracer_.scene();
     const ImagePoint centre{x + 0.5, y + 0.5};
     const auto ray = camera_ray(scene.camera, centre, effects_at(scene, centre), eye_);
-    writer_.data(x, y, ray ? tracer_.surface(*ray, scratch) : SurfaceRecord{});
+    return writer_.data(x, y, ray ? tracer_.surface(*ray, scratch) : SurfaceRecord{});
   }
 
   const Tracer& tracer_;
@@ -113,7 +112,8 @@ std::optional<RenderedImage> render_image(const Scene& scene, const RenderSettin
   const Tracer tracer(scene, settings.wavelengths);
   Image image(layout_of(scene, grid.window));
   std::vector<ViewRenderer> views = views_of(tracer, settings, image);
-  std::vector<Scratch> scratches(static_cast<std::size_t>(settings.threads), tracer.make_scratch());
+  std::vector<Scratch> scratches(static_cast<std::size_t>(std::max(1, settings.threads)),
+                                 tracer.make_scratch());
 
   const bool complete =
       run_on_threads(grid.count(), settings.threads, stop, [&](std::size_t index, int thread) {
@@ -129,7 +129,7 @@ std::optional<RenderedImage> render_image(const Scene& scene, const RenderSettin
         }
         if (progress != nullptr) progress->advance();
       });
-  if (!complete || stop.load()) return std::nullopt;
+  if (!complete) return std::nullopt;
 
   RenderedImage result{std::move(image), summed(scratches)};
   result.statistics.threads = settings.threads;

@@ -127,6 +127,10 @@ void compile_camera(Compilation& c) {
   expose(table, frame, position, c.scene);
   read_lens(table, c.scene.film, c.scene.camera.lens);
   if (table.has_valid("stereo")) {
+    const Projection projection = c.scene.camera.lens.projection;
+    if (projection == Projection::mercator || projection == Projection::fisheye) {
+      table.error("stereo", "two eyes need a perspective or an equirectangular projection");
+    }
     c.scene.camera.stereo = Stereo{table.table("stereo", "camera.stereo").number("separation")};
   }
 }

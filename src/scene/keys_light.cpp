@@ -10,13 +10,16 @@ KeyTable light() {
       "[[light]]",
       "A light, at rest in its frame. Its strength may be an expression of `t`, which is then the light's "
       "own time: a "
-      "flickering lamp. At most one of `temperature`, `color` and `spectrum` is given; without them it is "
+      "flickering lamp; below zero the lamp is off. At most one of `temperature`, `color` and `spectrum` is "
+      "given; without them it is "
       "D65, white.",
       {text("name", "For error messages and `-D light.NAME.key=value`."),
        choice("type", std::string("point"), {"point", "distant", "ambient"},
               "`point`: a lamp without size. `distant`: parallel light from infinity. `ambient`: the same "
               "irradiance on "
-              "every surface, in the surface's own rest frame (a convenience; no such light exists)."),
+              "every surface, in the surface's own rest frame (a convenience; no such light exists), its "
+              "strength by the "
+              "time of that frame."),
        numbers("position", 3, std::vector<double>{0, 0, 0}, "length", "Where it is."),
        number("temperature", Nothing{}, "K", "A blackbody's light, of the strength given.", above(0)),
        numbers("color", 3, Nothing{}, "", "Linear red, green, blue (Rec.709), multiplied by the strength.",

@@ -12,6 +12,14 @@ const ExtendedVec3& celerity_of(const Scene& scene, int frame) {
   return scene.frames[static_cast<std::size_t>(frame)].motion.celerity;
 }
 
+// Below this relative celerity no colour shifts that anyone could see: the same speed written in two ways, or
+// a scene told from another frame, differs by its rounding.
+constexpr double at_rest_celerity = 1e-9;
+
+bool moves(const ExtendedVec3& a, const ExtendedVec3& b) {
+  return relative_motion(a, b).speed > at_rest_celerity;
+}
+
 // How a frame is called: by its name, or by its first object's.
 std::string name_of(const Scene& scene, const SceneFrame& frame) {
   if (!frame.name.empty()) return "frame '" + frame.name + "'";
@@ -46,17 +54,17 @@ Shifts shifts_shown(const Scene& scene) {
 // The first motion that shifts a colour, or empty.
 std::string shifting_motion(const Scene& scene, const Shifts& shown) {
   const ExtendedVec3& camera = scene.camera.celerity;
-  if (shown.to_camera && scene.sky.emits && celerity_of(scene, scene.sky.frame) != camera) {
+  if (shown.to_camera && scene.sky.emits && moves(celerity_of(scene, scene.sky.frame), camera)) {
     return "the background moves relative to the camera";
   }
   for (const SceneFrame& frame : scene.frames) {
     if (frame.object_of_surface.empty()) continue;
-    if (shown.to_camera && frame.motion.celerity != camera) {
+    if (shown.to_camera && moves(frame.motion.celerity, camera)) {
       return name_of(scene, frame) + " moves relative to the camera";
     }
     for (const Light& light : scene.lights) {
       if (!shown.from_light || light.kind == LightKind::ambient) continue;
-      if (celerity_of(scene, light.frame) == frame.motion.celerity) continue;
+      if (!moves(celerity_of(scene, light.frame), frame.motion.celerity)) continue;
       return name_of(scene, light) + " and " + name_of(scene, frame) + " move relative to each other";
     }
   }
@@ -71,7 +79,7 @@ void choose_model(const Scene& scene, Needs& needs) {
   if (needs.spectral) {
     needs.why = shown_motion;
   } else if (all_motion.empty() && needs.stars > 0 &&
-             celerity_of(scene, scene.sky.frame) != scene.camera.celerity) {
+             moves(celerity_of(scene, scene.sky.frame), scene.camera.celerity)) {
     needs.why = "only stars shift, and their colours are found once an image";
   } else if (all_motion.empty()) {
     needs.why = "nothing moves relative to anything else";
@@ -87,7 +95,7 @@ Needs needs_of(const Scene& scene) {
   for (const SceneFrame& frame : scene.frames) {
     if (frame.object_of_surface.empty()) continue;
     ++needs.frames;
-    if (frame.motion.celerity != scene.camera.celerity) ++needs.moving_frames;
+    if (moves(frame.motion.celerity, scene.camera.celerity)) ++needs.moving_frames;
     needs.surfaces += frame.object_of_surface.size();
   }
   needs.objects = scene.objects.size();

@@ -1,7 +1,5 @@
 #include "backlight/spacetime/extended.h"
 
-#include <limits>
-
 namespace backlight {
 
 Extended exp(Extended a) {

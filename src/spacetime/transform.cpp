@@ -87,6 +87,17 @@ InertialFrame within(const InertialFrame& outer, const InertialFrame& inner) {
   return {four_velocity.x, to_world(outer, inner.origin)};
 }
 
+ExtendedTransform::ExtendedTransform(const ExtendedVec3& to, const ExtendedVec3& from)
+    : matrix_(product(boost_matrix(to), boost_matrix(Extended(-1.0) * from))) {}
+
+ExtendedEvent ExtendedTransform::operator()(const ExtendedEvent& d) const {
+  const auto row = [&](std::size_t i) {
+    const auto& m = matrix_[i];
+    return m[0] * d.t + m[1] * d.x[0] + m[2] * d.x[1] + m[3] * d.x[2];
+  };
+  return {row(0), {row(1), row(2), row(3)}};
+}
+
 RelativeMotion relative_motion(const ExtendedVec3& to, const ExtendedVec3& from) {
   if (to == from) return {Vec3{0.0}, 1.0, 0.0, Mat3{1.0}, true, false};
   const ExtendedVec3 rest;

@@ -1,5 +1,7 @@
 #include "backlight/trace/hub.h"
 
+#include <cmath>
+
 namespace backlight {
 namespace {
 
@@ -9,7 +11,10 @@ FrameView view_of(const SceneFrame& frame, const CameraView& camera) {
   view.from_camera = relative_transform<Rest, Camera>(frame.motion.celerity, camera.celerity);
   view.camera_event = {double(event.t), event.x.rounded()};
   view.scene = &frame;
-  view.has_surfaces = frame.surfaces.size() > 0;
+  const BoundingSphere bounds = frame.surfaces.bounds();
+  if (view.from_camera.gamma() > robust_gamma && bounds.radius >= 0.0 && std::isfinite(bounds.radius)) {
+    view.far = FarView{ExtendedTransform(frame.motion.celerity, camera.celerity), event, bounds};
+  }
   return view;
 }
 
@@ -17,7 +22,6 @@ LightView view_of(const Light& light, const Scene& scene) {
   const ExtendedVec3& own = scene.frames[static_cast<std::size_t>(light.frame)].motion.celerity;
   LightView view;
   view.light = &light;
-  view.frame = light.frame;
   view.to_frame.reserve(scene.frames.size());
   for (const SceneFrame& frame : scene.frames) {
     view.to_frame.push_back(relative_transform<Rest, Source>(frame.motion.celerity, own));
@@ -32,7 +36,7 @@ Hub make_hub(const Scene& scene) {
   hub.frames.reserve(scene.frames.size());
   for (const SceneFrame& frame : scene.frames) {
     hub.frames.push_back(view_of(frame, scene.camera));
-    if (hub.frames.back().has_surfaces) hub.occupied.push_back(static_cast<int>(hub.frames.size()) - 1);
+    if (frame.surfaces.size() > 0) hub.occupied.push_back(static_cast<int>(hub.frames.size()) - 1);
   }
   hub.lights.reserve(scene.lights.size());
   for (const Light& light : scene.lights) hub.lights.push_back(view_of(light, scene));

@@ -9,8 +9,8 @@ namespace {
 // The hit event in the light's frame. In the surface's own frame the refined point is the better one; in any
 // other the event is the camera's plus λ n, and never a boosted position.
 Event<Source> event_at_light(RayInFrames& rays, const SeenPoint& point, const LightView& light) {
-  if (light.frame == point.hit.frame) return {point.proper_time, point.surface.position};
-  const Event<Rest> event = rays.in(light.frame).at(point.hit.hit.lambda);
+  if (light.light->frame == point.hit.frame) return {point.proper_time, point.surface.position};
+  const Event<Rest> event = rays.in(light.light->frame).at(point.hit.lambda);
   return {event.t, event.x};  // the light's rest frame entered through its index: Rest is Source here
 }
 
@@ -25,7 +25,7 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit) {
   point.to_camera = -ray.direction / glm::length(ray.direction);
   const bool outside = glm::dot(point.surface.normal, point.to_camera) >= 0.0;
   point.normal = outside ? point.surface.normal : -point.surface.normal;
-  point.proper_time = ray.at(hit.hit.lambda).t;
+  point.proper_time = ray.at(hit.lambda).t;
   return point;
 }
 
@@ -36,9 +36,10 @@ std::optional<Arrival> arrival(RayInFrames& rays, const SeenPoint& point, const 
   if (light.kind == LightKind::distant) {
     a.segment.direction = {-light.direction, 1.0};
     a.segment.end = std::numeric_limits<double>::infinity();
-    a.emission_time = event.t - glm::dot(light.direction, event.x);  // phase of the plane wave
+    a.emission_time = event.t - glm::dot(light.direction, event.x);  // of the wave front: below (13)
   } else {
-    // The past light cone of the hit meets the lamp's world line: no equation to solve in its rest frame.
+    // Equation (10): the past light cone of the hit meets the lamp's world line. Nothing to solve in its
+    // frame.
     a.segment.direction = null_direction<Source>(light.position - event.x);
     a.emission_time = event.t - a.segment.direction.length;
   }

@@ -11,13 +11,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-const Material& material_at(const Scene& scene, const SeenPoint& point, int& index) {
-  const SceneFrame& frame = scene.frames[static_cast<std::size_t>(point.hit.frame)];
-  const int object = frame.object_of_surface[static_cast<std::size_t>(point.hit.hit.surface)];
-  index = scene.objects[static_cast<std::size_t>(object)].material;
-  return scene.materials[static_cast<std::size_t>(index)];
-}
-
 // Which of a checker's two colours, by the parity of the square in texture coordinates.
 int checker_slot(const Checker& checker, const SurfacePoint& surface) {
   const double square = std::floor(surface.u / checker.size) + std::floor(surface.v / checker.size);
@@ -47,8 +40,9 @@ double specular_brdf(const Material& material, const SeenPoint& point, const Arr
   return material.specular * (material.shininess + 2.0) / (2.0 * pi) * std::pow(alpha, material.shininess);
 }
 
-// One lamp's contribution: calls `add(weight, specular, arrival, light index)`, weight the bolometric
-// irradiance for unit spectrum, when the point is lit.
+// Calls `add(light index, irradiance, specular, arrival)` for each light that reaches the point: irradiance
+// is that of a light of unit spectrum (docs/physics.md equations (12), (13)), specular the value of Phong's
+// lobe.
 template <class Add>
 void for_each_lamp(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                    const Material& material, Scratch& scratch, const Add& add) {
@@ -95,21 +89,6 @@ void fill_reflectance(const Material& material, const SurfacePoint& surface, Scr
 
 }  // namespace
 
-RestColours::RestColours(const Scene& scene)
-    : materials_(scene.materials.size()), table_(scene.lights.size() * materials_ * 2, LinearRgb{0.0}) {
-  const auto colour = [](const Colour& light, const Colour& reflectance) {
-    const bool plain = light.spectrum.is_d65_shaped() || reflectance.spectrum.is_grey();
-    return plain ? light.rgb * reflectance.rgb : colour_under(light.spectrum, reflectance.spectrum);
-  };
-  std::size_t at = 0;
-  for (const Light& light : scene.lights) {
-    for (const Material& m : scene.materials) {
-      table_[at++] = colour(light.colour, m.checker ? m.checker->colours[0] : m.reflectance);
-      table_[at++] = m.checker ? colour(light.colour, m.checker->colours[1]) : LinearRgb{0.0};
-    }
-  }
-}
-
 Scratch::Scratch(const Hub& hub, const Scene& scene, std::size_t count)
     : rays(hub), wavelengths(count), at_light(count), reflectance(count), lamp(count), radiance(count) {
   for (const Light& light : scene.lights) light_variables.push_back(light.variables);
@@ -118,8 +97,8 @@ Scratch::Scratch(const Hub& hub, const Scene& scene, std::size_t count)
 Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                      Scratch& scratch) {
   const Scene& scene = *context.scene;
-  int index = 0;
-  const Material& material = material_at(scene, point, index);
+  const int index = object_of(scene, point.hit).material;
+  const Material& material = scene.materials[static_cast<std::size_t>(index)];
   LinearRgb texel{0.0};
   if (material.texture) texel = texture_reflectance(material, point.surface);
   const int slot = material.checker ? checker_slot(*material.checker, point.surface) : 0;
@@ -128,8 +107,8 @@ Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, cons
   for_each_lamp(context, point, effects, material, scratch,
                 [&](std::size_t i, double irradiance, double specular, const Arrival&) {
                   const LinearRgb& lamp = scene.lights[i].colour.rgb;
-                  const LinearRgb diffuse =
-                      material.texture ? texel * lamp : context.rest_colours->under(i, index, slot);
+                  const LinearRgb diffuse = material.texture ? context.rest_colours->under(i, texel)
+                                                             : context.rest_colours->under(i, index, slot);
                   out.rgb += irradiance * (diffuse / pi + specular * lamp);
                 });
   return out;
@@ -137,8 +116,8 @@ Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, cons
 
 void shade_spectrum(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                     Scratch& s) {
-  int index = 0;
-  const Material& material = material_at(*context.scene, point, index);
+  const int index = object_of(*context.scene, point.hit).material;
+  const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
   const int n = static_cast<int>(s.wavelengths.size());
   std::fill(s.radiance.begin(), s.radiance.end(), 0.0);
   if (material.emits) material.emission.spectrum.evaluate(s.wavelengths.data(), n, s.radiance.data());

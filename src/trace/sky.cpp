@@ -43,8 +43,7 @@ SeenStar seen(const Star& star, const Hub& hub, const Scene& scene, bool light_d
 // Film colour of the star's irradiance in the camera's frame, in film Y times steradians.
 LinearRgb illuminance(const Star& star, DopplerFactor<Camera, Rest> doppler, double gamma,
                       const Effects& effects, const WavelengthSet& wavelengths, std::vector<double>& work) {
-  const BrightnessSwitches& factors = effects.light_delay ? effects.brightness : no_searchlight;
-  const double flux = flux_factor(doppler, gamma, factors);
+  const double flux = flux_factor(doppler, gamma, effects.towards_camera());
   const Spectrum body = Spectrum::blackbody(star.temperature);
   const DopplerFactor<Camera, Rest> shift = effects.doppler ? doppler : DopplerFactor<Camera, Rest>{};
   work.resize(wavelengths.nm().size());
@@ -55,16 +54,6 @@ LinearRgb illuminance(const Star& star, DopplerFactor<Camera, Rest> doppler, dou
 }
 
 }  // namespace
-
-const Effects& effects_at(const Scene& scene, const ImagePoint& point) {
-  const double x = point.x / scene.camera.lens.width;
-  const double y = point.y / scene.camera.lens.height;
-  const Effects* found = &scene.effects;
-  for (const EffectsRegion& region : scene.regions) {
-    if (x >= region.x0 && x < region.x1 && y >= region.y0 && y < region.y1) found = &region.effects;
-  }
-  return *found;
-}
 
 Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray) {
   if (!sky.emits) return {};
@@ -107,7 +96,8 @@ std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const Wav
       const ImagePoint pixel{std::floor(point->x), std::floor(point->y)};
       const double area = pixel_solid_angle(lens, {pixel.x + 0.5, pixel.y + 0.5});
       const LinearRgb light = illuminance(star, s.doppler, gamma, effects, wavelengths, work);
-      images.push_back({static_cast<int>(pixel.x), static_cast<int>(pixel.y), s.direction, light / area});
+      images.push_back(
+          {static_cast<int>(pixel.x), static_cast<int>(pixel.y), s.direction, light / area, light_delay});
     }
   }
   std::stable_sort(images.begin(), images.end(),

@@ -5,14 +5,42 @@
 #include <numbers>
 
 namespace backlight {
+namespace {
+
+CameraRay ray_of_eye(const CameraView& camera, const ImagePoint& point, const Vec3& direction,
+                     bool light_delay, int eye) {
+  const Lens& lens = camera.lens;
+  CameraRay ray;
+  ray.direction = direction;
+  ray.light_delay = light_delay;
+  if (eye == 0 || !camera.stereo) return ray;
+  // The eyes are half the separation to either side. All around, they turn with the head: the viewer faces
+  // each longitude in turn (omnidirectional stereo).
+  Vec3 aside = lens.right;
+  if (lens.projection == Projection::equirectangular) {
+    const double longitude = (point.x / lens.width - 0.5) * 2.0 * std::numbers::pi;
+    aside = std::cos(longitude) * lens.right - std::sin(longitude) * lens.forward;
+  }
+  ray.offset = {0.0, 0.5 * eye * camera.stereo->separation * aside};
+  ray.displaced = true;
+  return ray;
+}
+
+bool any_without_shift(const Scene& scene) {
+  return !scene.effects.doppler || std::any_of(scene.regions.begin(), scene.regions.end(),
+                                               [](const EffectsRegion& r) { return !r.effects.doppler; });
+}
+
+}  // namespace
 
 Tracer::Tracer(const Scene& scene, int wavelengths)
     : scene_(&scene),
       hub_(make_hub(scene)),
-      rest_colours_(scene),
       wavelengths_(wavelengths > 0 ? wavelengths : default_wavelength_count),
       spectral_(wavelengths > 0),
-      stars_(star_images(scene, hub_, wavelengths_)) {}
+      stars_(star_images(scene, hub_, wavelengths_)) {
+  if (!spectral_ || any_without_shift(scene)) rest_colours_ = RestColours(scene, wavelengths_);
+}
 
 Scratch Tracer::make_scratch() const {
   return {hub_, *scene_, spectral_ ? wavelengths_.nm().size() : 0};
@@ -31,7 +59,7 @@ LinearRgb Tracer::colour(const CameraRay& ray, const Effects& effects, Scratch& 
   // (9).
   const DopplerFactor<Camera, Rest> doppler = events.doppler(ray.light_delay);
   const double gamma = hub_.frames[static_cast<std::size_t>(frame)].from_camera.gamma();
-  const BrightnessSwitches& factors = ray.light_delay ? effects.brightness : no_searchlight;
+  const BrightnessSwitches& factors = effects.towards_camera();
   const ShadingContext context{scene_, &hub_, &rest_colours_};
 
   if (!spectral_ || !effects.doppler) {
@@ -63,29 +91,25 @@ SurfaceRecord Tracer::surface(const CameraRay& ray, Scratch& scratch) const {
     return record;
   }
   const SeenPoint point = seen_point(hub_, scratch.rays, hit);
-  const SceneFrame& frame = scene_->frames[static_cast<std::size_t>(hit.frame)];
-  const int object = frame.object_of_surface[static_cast<std::size_t>(hit.hit.surface)];
-  record.object_id = scene_->objects[static_cast<std::size_t>(object)].id;
-  record.distance = hit.hit.lambda;
+  record.object_id = object_of(*scene_, hit).id;
+  record.distance = double(hit.lambda);
   record.doppler = scratch.rays.in(hit.frame).doppler(ray.light_delay).value;
-  record.emission_time = scratch.rays.in(0).at(hit.hit.lambda).t / scene_->c;
+  record.emission_time = scratch.rays.in(0).at(hit.lambda).t / scene_->c;
   record.proper_time = point.proper_time / scene_->c;
   record.position = point.surface.position;
   record.normal = point.normal;
   return record;
 }
 
-LinearRgb Tracer::stars(int x, int y, Scratch& scratch) const {
+LinearRgb Tracer::stars(int x, int y, int eye, Scratch& scratch) const {
   LinearRgb sum{0.0};
   const auto before = [](const StarImage& star, const std::pair<int, int>& pixel) {
     return star.y != pixel.second ? star.y < pixel.second : star.x < pixel.first;
   };
   auto star = std::lower_bound(stars_.begin(), stars_.end(), std::pair{x, y}, before);
   for (; star != stars_.end() && star->x == x && star->y == y; ++star) {
-    const Effects& effects = effects_at(*scene_, {x + 0.5, y + 0.5});
-    CameraRay ray;
-    ray.direction = star->direction;
-    ray.light_delay = effects.light_delay;
+    const CameraRay ray =
+        ray_of_eye(scene_->camera, {x + 0.5, y + 0.5}, star->direction, star->light_delay, eye);
     scratch.rays.start(ray);
     if (!first_hit(hub_, scratch.rays).found()) sum += star->radiance;
   }
@@ -94,23 +118,9 @@ LinearRgb Tracer::stars(int x, int y, Scratch& scratch) const {
 
 std::optional<CameraRay> camera_ray(const CameraView& camera, const ImagePoint& point, const Effects& effects,
                                     int eye) {
-  const Lens& lens = camera.lens;
-  const auto direction = direction_at(lens, point);
+  const auto direction = direction_at(camera.lens, point);
   if (!direction) return std::nullopt;
-  CameraRay ray;
-  ray.direction = *direction;
-  ray.light_delay = effects.light_delay;
-  if (eye == 0 || !camera.stereo) return ray;
-  // The eyes are half the separation to either side. All around, they turn with the head: the viewer faces
-  // each longitude in turn (omnidirectional stereo).
-  Vec3 aside = lens.right;
-  if (lens.projection == Projection::equirectangular) {
-    const double longitude = (point.x / lens.width - 0.5) * 2.0 * std::numbers::pi;
-    aside = std::cos(longitude) * lens.right - std::sin(longitude) * lens.forward;
-  }
-  ray.offset = {0.0, 0.5 * eye * camera.stereo->separation * aside};
-  ray.displaced = true;
-  return ray;
+  return ray_of_eye(camera, point, *direction, effects.light_delay, eye);
 }
 
 }  // namespace backlight

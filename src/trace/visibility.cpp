@@ -1,14 +1,25 @@
 #include "backlight/trace/visibility.h"
 
+#include <limits>
+
 namespace backlight {
+
+const Object& object_of(const Scene& scene, const FirstHit& hit) {
+  const SceneFrame& frame = scene.frames[static_cast<std::size_t>(hit.frame)];
+  const int object = frame.object_of_surface[static_cast<std::size_t>(hit.hit.surface)];
+  return scene.objects[static_cast<std::size_t>(object)];
+}
 
 FirstHit first_hit(const Hub& hub, RayInFrames& rays) {
   FirstHit first;
+  double nearest = std::numeric_limits<double>::infinity();
   for (const int index : hub.occupied) {
     const RestRayEvents& ray = rays.in(index);
     const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(index)].scene->surfaces;
-    const Hit hit = surfaces.nearest(ray.origin, ray.direction, first.hit.lambda);
-    if (hit.found()) first = {hit, index};
+    const Hit hit = surfaces.nearest(ray.origin, ray.direction, nearest - ray.start);
+    if (!hit.found()) continue;
+    first = {hit, index, Extended(ray.start) + Extended(hit.lambda)};
+    nearest = double(first.lambda);
   }
   return first;
 }
@@ -25,7 +36,7 @@ bool is_shadowed(const Hub& hub, RayInFrames& rays, const FirstHit& hit, const L
       continue;
     }
     const auto& to_frame = light.to_frame[static_cast<std::size_t>(index)];
-    const Vec3 start = rays.in(index).at(hit.hit.lambda).x;
+    const Vec3 start = rays.in(index).at(hit.lambda).x;
     if (surfaces.blocked(start, to_frame(segment.direction).x, 0.0, segment.end)) return true;
   }
   return false;

@@ -5,6 +5,7 @@
 
 #include "redescription.h"
 #include "rendering.h"
+#include "worst.h"
 
 namespace backlight::test {
 namespace {
@@ -59,8 +60,8 @@ struct Comparison {
   int pixels = 0;
   int seen = 0;
   int other_id = 0;
-  double data = 0.0;  // worst relative error
-  double colour = 0.0;
+  Worst data;  // relative errors
+  Worst colour;
 };
 
 double relative(double a, double b, double scale) {
@@ -81,16 +82,16 @@ Comparison compare(const Rendering& a, const Rendering& b, const std::vector<Mat
       if (id == 0) continue;
       ++c.seen;
       for (const char* channel : {"Z", "doppler.D", "properTime.T"}) {
-        c.data = std::max(c.data, relative(a.at(channel, x, y), b.at(channel, x, y), 1.0));
+        c.data.take(relative(a.at(channel, x, y), b.at(channel, x, y), 1.0), channel);
       }
       const Mat3& rotation = rotation_of_object[static_cast<std::size_t>(id - 1)];
       const double size = std::max(glm::length(a.position(x, y)), 1.0);
-      c.data = std::max(c.data, glm::length(rotation * a.position(x, y) - b.position(x, y)) / size);
-      c.data = std::max(c.data, glm::length(rotation * a.normal(x, y) - b.normal(x, y)));
+      c.data.take(glm::length(rotation * a.position(x, y) - b.position(x, y)) / size, "P");
+      c.data.take(glm::length(rotation * a.normal(x, y) - b.normal(x, y)), "N");
       const Vec3 colour = a.rgb(x, y);
       const double brightness = std::max({std::abs(colour.r), std::abs(colour.g), std::abs(colour.b)});
-      if (brightness == 0.0) continue;
-      c.colour = std::max(c.colour, glm::length(colour - b.rgb(x, y)) / brightness);
+      const double difference = glm::length(colour - b.rgb(x, y));
+      c.colour.take(difference == 0.0 ? 0.0 : difference / brightness);
     }
   }
   return c;
@@ -112,10 +113,10 @@ TEST_P(Relativity, OneCommonLorentzTransformationChangesNoPixel) {
     const Comparison c = compare(a, b, other.rotation_of_object);
     EXPECT_GT(c.seen, 1500);
     EXPECT_EQ(c.other_id, 0) << "axis " << axis.x << ' ' << axis.y << ' ' << axis.z;
-    EXPECT_LT(c.data, 1e-6);
+    EXPECT_LT(c.data.error, 1e-6) << c.data.where;
     // A shadow's edge may fall on the other side of a pixel's centre: no more than a handful of pixels, which
     // the worst colour would show. None does in this scene.
-    EXPECT_LT(c.colour, 1e-5);
+    EXPECT_LT(c.colour.error, 1e-5);
   }
 }
 

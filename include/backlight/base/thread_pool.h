@@ -11,9 +11,9 @@ namespace backlight {
 /// is one; `thread` (0 ... threads - 1) tells which, for scratch memory. The pieces are taken in order of i,
 /// but which thread takes which is left to chance: results must not depend on it.
 ///
-/// When `stop` turns true no further piece is begun; those in hand are finished, or may look at `stop` themselves
-/// and return early. When a piece throws, the others in hand are finished and the first exception is rethrown to
-/// the caller. Returns whether all pieces were done and `stop` is still false.
+/// When `stop` turns true no further piece is begun; those in hand are finished, or may look at `stop`
+/// themselves and return early. When a piece throws, the others in hand are finished and the first exception
+/// is rethrown to the caller. Returns whether all pieces were done and `stop` is still false.
 bool run_on_threads(std::size_t count, int threads, const std::atomic<bool>& stop,
                     const std::function<void(std::size_t, int)>& task);
 

@@ -1,4 +1,4 @@
-// From pixels to directions and back: docs/physics.md section 2.
+// From pixels to directions and back: docs/physics.md section 2, Projections.
 #pragma once
 
 #include <optional>

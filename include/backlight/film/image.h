@@ -29,7 +29,7 @@ enum class ChannelPrecision {
   single  ///< float: distances, times, positions, identifiers
 };
 
-/// A channel's name as in the file (docs/scene-format.md: "R", "Z", "doppler.D", "P.X"...) and its storage.
+/// A channel's name as in the file ("R", "Z", "doppler.D", "P.X"...) and its storage.
 struct ChannelInfo {
   std::string name;
   ChannelPrecision precision = ChannelPrecision::single;

@@ -27,6 +27,11 @@ struct Effects {
   bool doppler = true;            ///< the shift of colours
   BrightnessSwitches brightness;  ///< the searchlight effect, factor by factor
   friend bool operator==(const Effects&, const Effects&) = default;
+
+  /// The searchlight factors on the way to the camera: none where no light travels (light_delay = false).
+  [[nodiscard]] const BrightnessSwitches& towards_camera() const {
+    return light_delay ? brightness : no_searchlight;
+  }
 };
 
 /// Other effects in a part of the image. x, y are fractions of the full image, y down; the last region that
@@ -74,7 +79,8 @@ struct Light {
   Vec3 direction{0.0, -1.0, 0.0};  ///< distant: the unit direction in which the light travels, in that frame
   Colour colour;                   ///< spectrum of unit strength
   /// Strength as a function of the light's own (frame) time: intensity of a point light, irradiance of a
-  /// distant one, radiance of an ambient one. `strength` when it does not depend on time.
+  /// distant one; radiance of an ambient one, by the time of the surface's frame. `strength` when it does not
+  /// depend on time.
   double strength = 1.0;
   bool flickers = false;
   Expression strength_of_time;    ///< of variables {t, frame, params...}, when it flickers
@@ -151,5 +157,8 @@ struct Scene {
   std::vector<EffectsRegion> regions;
   FilmSettings film;
 };
+
+/// The effects in force at an image point (pixels of the full image).
+const Effects& effects_at(const Scene& scene, const ImagePoint& point);
 
 }  // namespace backlight

@@ -1,7 +1,7 @@
 // Double-double arithmetic: an unevaluated sum of two doubles, about 32 decimal digits.
 //
-// Only for setting up frames, once per image: composing two boosts of Lorentz factor g in double loses g²
-// ulps (docs/physics.md section 6). Nothing here is called per ray.
+// For setting up frames, once per image: composing two boosts of Lorentz factor g in double loses g² ulps
+// (docs/physics.md section 6). Of a ray, only what happens in a frame of large γ is worth its price.
 //
 // The error-free transformations are Knuth's two-sum and the fused product; sums and products follow
 // Joldes, Muller & Popescu, "Tight and rigorous error bounds for basic building blocks of double-word

@@ -92,6 +92,20 @@ class LorentzTransform {
   bool robust_ = false;
 };
 
+/// The same transformation in extended precision, as a matrix: for the few numbers of a ray that double
+/// cannot hold where frames move with a large γ.
+class ExtendedTransform {
+ public:
+  ExtendedTransform() = default;
+  /// From the frame of celerity `from` to that of celerity `to` (both of the world).
+  ExtendedTransform(const ExtendedVec3& to, const ExtendedVec3& from);
+
+  ExtendedEvent operator()(const ExtendedEvent& displacement) const;
+
+ private:
+  std::array<std::array<Extended, 4>, 4> matrix_{};
+};
+
 /// The parts of Λ = R B(w), rounded from extended precision.
 struct RelativeMotion {
   Vec3 celerity;  ///< w, of To as seen from From

@@ -1,10 +1,11 @@
 // The hub: every frame relative to the camera's event, composed once an image.
 //
-// docs/physics.md section 2. A ray costs one boost of a direction per frame, a hit in a frame is
+// docs/physics.md section 6. A ray costs one boost of a direction per frame, a hit in a frame is
 // camera_event + λ k there, and no number of a ray ever goes through world coordinates: clocks of 10⁹ and
 // frames of γ = 10⁶ then cost nothing.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "backlight/scene/scene.h"
@@ -12,18 +13,25 @@
 
 namespace backlight {
 
+/// What a frame of large relative γ needs besides: there, the camera's event may be γ times farther from the
+/// frame's surfaces than the light travels, and rays are brought next to them in extended precision.
+struct FarView {
+  ExtendedTransform from_camera;
+  ExtendedEvent camera_event;
+  BoundingSphere bounds;  ///< of all surfaces of the frame
+};
+
 /// One frame of the scene as the camera's event has it.
 struct FrameView {
   LorentzTransform<Rest, Camera> from_camera;
   Event<Rest> camera_event;  ///< the exposure, in the frame's coordinates
   const SceneFrame* scene = nullptr;
-  bool has_surfaces = false;
+  std::optional<FarView> far;  ///< for γ > robust_gamma, where the surfaces have bounds
 };
 
 /// One light's rest frame, and the way from it to every frame of the scene.
 struct LightView {
   const Light* light = nullptr;
-  int frame = 0;
   std::vector<LorentzTransform<Rest, Source>> to_frame;  ///< by frame index
 };
 

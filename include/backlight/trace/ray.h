@@ -17,15 +17,18 @@ struct CameraRay {
   bool light_delay = true;        ///< false: simultaneous in the camera's frame instead of light-like
 };
 
-/// The ray in one frame: events (time; origin) + λ (time_rate; direction), λ > 0 the same in every frame.
+/// The ray in one frame: events (time; origin) + (λ - start) (time_rate; direction), λ > 0 the same in every
+/// frame.
 struct RestRayEvents {
   Vec3 origin{0.0};
   Vec3 direction{0.0};
   double time = 0.0;
   double time_rate = -1.0;  ///< -1/D on the light cone; docs/physics.md equation (4)
+  double start = 0.0;       ///< λ of `origin`: 0, the camera's event, unless the ray was brought nearer
 
-  [[nodiscard]] Event<Rest> at(double lambda) const {
-    return {time + lambda * time_rate, origin + lambda * direction};
+  [[nodiscard]] Event<Rest> at(const Extended& lambda) const {
+    const double step = double(lambda - Extended(start));
+    return {time + step * time_rate, origin + step * direction};
   }
   /// D on the way to the camera; 1 where no light travels (light_delay = false).
   [[nodiscard]] DopplerFactor<Camera, Rest> doppler(bool light_delay) const {
@@ -33,7 +36,7 @@ struct RestRayEvents {
   }
 };
 
-/// The ray in this frame: one boost.
+/// The ray in this frame: one boost. In a frame of large γ it starts where it comes near the surfaces.
 RestRayEvents in_frame(const FrameView& frame, const CameraRay& ray);
 
 }  // namespace backlight

@@ -1,10 +1,11 @@
 // What a seen point sends towards the camera, in its own rest frame: Lambert, Phong and own emission.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
-#include "backlight/colour/observer.h"
 #include "backlight/trace/illumination.h"
+#include "backlight/trace/rest_colours.h"
 
 namespace backlight {
 
@@ -14,24 +15,6 @@ struct RayCounts {
   std::uint64_t shadow = 0;      ///< segments to lamps that were tested
   std::uint64_t data = 0;        ///< pixel-centre rays for the data channels alone
   std::uint64_t non_finite = 0;  ///< pixels with a NaN or an infinity
-};
-
-/// Colours under lamps at rest, worked out once an image from the spectra, so that the RGB path shows at rest
-/// what the spectral path would: the film colour of lamp × reflectance. One per lamp and constant colour.
-class RestColours {
- public:
-  explicit RestColours(const Scene& scene);
-
-  /// Film colour of reflectance slot `slot` (0, or 0 and 1 of a checker) of a material under a light of unit
-  /// strength.
-  [[nodiscard]] const LinearRgb& under(std::size_t light, int material, int slot) const {
-    return table_[(light * materials_ + static_cast<std::size_t>(material)) * 2 +
-                  static_cast<std::size_t>(slot)];
-  }
-
- private:
-  std::size_t materials_;
-  std::vector<LinearRgb> table_;
 };
 
 /// Working memory of one thread.

@@ -20,13 +20,11 @@ struct StarImage {
   int y = 0;
   Vec3 direction{0.0};      ///< unit, camera frame: for the test whether an object hides it
   LinearRgb radiance{0.0};  ///< its light spread over that pixel
+  bool light_delay = true;  ///< as in the effects in force where it is seen
 };
 
 /// All stars that fall on the film, by row and then column: aberrated forward, shifted as the blackbodies
 /// they are, flux by D².
 std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const WavelengthSet& wavelengths);
-
-/// The effects in force at an image point, in pixels.
-const Effects& effects_at(const Scene& scene, const ImagePoint& point);
 
 }  // namespace backlight

@@ -1,7 +1,7 @@
 // From a camera ray to the light that it carries.
 #pragma once
 
-#include <span>
+#include <optional>
 
 #include "backlight/trace/sky.h"
 
@@ -34,8 +34,8 @@ class Tracer {
   /// What the ray meets.
   SurfaceRecord surface(const CameraRay& ray, Scratch& scratch) const;
 
-  /// The stars of pixel (x, y) of the full image that are not hidden by an object.
-  LinearRgb stars(int x, int y, Scratch& scratch) const;
+  /// The stars of pixel (x, y) of the full image that no object hides from this eye.
+  LinearRgb stars(int x, int y, int eye, Scratch& scratch) const;
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Hub& hub() const { return hub_; }

@@ -1,6 +1,7 @@
 // What a ray meets first, and whether a lamp is hidden.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "backlight/surface/surface_set.h"
@@ -10,14 +11,18 @@ namespace backlight {
 
 /// The first surface back along a ray.
 struct FirstHit {
-  Hit hit;
-  int frame = -1;  ///< index of the surface's rest frame
+  Hit hit;          ///< its λ counts from the start of the ray in that frame
+  int frame = -1;   ///< index of the surface's rest frame
+  Extended lambda;  ///< of the ray as a whole
   [[nodiscard]] bool found() const { return hit.found(); }
 };
 
+/// The object whose surface was hit.
+const Object& object_of(const Scene& scene, const FirstHit& hit);
+
 /// A camera ray in all frames that it was asked for: one per thread, used again for every ray.
 ///
-/// Frames with surfaces are filled by trace(); any other frame is boosted when first asked for.
+/// first_hit() asks for all frames with surfaces; any other frame is boosted when first asked for.
 class RayInFrames {
  public:
   explicit RayInFrames(const Hub& hub) : hub_(&hub), events_(hub.frames.size()), age_(hub.frames.size(), 0) {}
@@ -59,8 +64,8 @@ struct ShadowSegment {
   double end = 1.0;
 };
 
-/// Whether something is between the hit and the light: docs/physics.md section 4. Tested in each occluder's
-/// own frame, at the retarded times by construction.
+/// Whether something is between the hit and the light: docs/physics.md equation (11). Tested in each
+/// occluder's own frame, at the retarded times by construction.
 bool is_shadowed(const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,
                  const ShadowSegment& segment);
 

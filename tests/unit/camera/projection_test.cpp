@@ -86,6 +86,21 @@ TEST(Projection, FisheyeShowsNothingOutsideItsCircle) {
   EXPECT_NEAR(glm::dot(*direction_at(lens, {90.0, 30.0}), lens.forward), std::cos(lens.fov / 2), 1e-15);
 }
 
+TEST(Projection, PolesAndSeamOfAPanoramaAreOnTheFilm) {
+  Lens lens;
+  lens.projection = Projection::equirectangular;
+  lens.width = 64;
+  lens.height = 48;
+  ASSERT_TRUE(aim(lens, {0, 0, 1}, {0, 1, 0}));
+  for (const Vec3 d :
+       {Vec3{0, -1, 0}, Vec3{0, 1, 0}, Vec3{0, 0, -1}, Vec3{-1e-17, 0, -1}, Vec3{1e-17, 0, -1}}) {
+    const auto p = point_of(lens, d);
+    ASSERT_TRUE(p) << d.x << ' ' << d.y << ' ' << d.z;
+    EXPECT_LT(p->x, 64.0);
+    EXPECT_LT(p->y, 48.0);
+  }
+}
+
 TEST(Projection, AimRefusesParallelUpAndNoDirection) {
   Lens lens;
   EXPECT_FALSE(aim(lens, {0, 2, 0}, {0, 1, 0}));

@@ -30,6 +30,13 @@ TEST(SceneNeeds, AtRestRedGreenBlueIsEnough) {
   EXPECT_EQ(n.moving_frames, 0U);
 }
 
+TEST(SceneNeeds, TheSameSpeedWrittenInTwoWaysIsTheSameSpeed) {
+  const Needs n = needs("c = 5\n[camera]\nvelocity = [0, 0, 4.5]\n" + sphere + "beta = [0, 0, 0.9]\n" + lamp +
+                        "beta = [0, 0, 0.9]\n");
+  EXPECT_FALSE(n.spectral);
+  EXPECT_EQ(n.moving_frames, 0U);
+}
+
 TEST(SceneNeeds, WhatMovesAgainstTheCameraNeedsSpectra) {
   const Needs n = needs(camera + moving + sphere);
   EXPECT_TRUE(n.spectral);

@@ -43,18 +43,22 @@ TEST_P(NullBoost, IsExactToAFewUlpAtAnySpeed) {
   std::mt19937_64 rng(7);
   std::uniform_real_distribution<double> angle(0.0, 2.0 / gamma);
   double worst = 0.0;
-  for (int i = 0; i < 4000; ++i) {
-    // Along z, so that the celerity is exactly representable and only the boost's own errors are seen.
-    const ExtendedVec3 to = celerity_of(u, {0.0, 0.0, 1.0});
+  const Vec3 axes[] = {{0.0, 0.0, 1.0}, Vec3{3.0, 4.0, 12.0} / 13.0, {0.48, -0.6, 0.64}};
+  for (int i = 0; i < 6000; ++i) {
+    // The celerity is a double, so that only the boost's own errors are seen; oblique ones need the fused
+    // products.
+    const Vec3 axis = axes[i % 3];
+    const ExtendedVec3 to{u * axis};
     Vec3 d = random_unit(rng);
     if (i % 2 == 0) {
       const double a = angle(rng);
-      d = {std::sin(a) * d.x, std::sin(a) * d.y, -std::cos(a)};
-      d = glm::normalize(d);
+      d = glm::normalize(std::sin(a) * d - std::cos(a) * axis);
     }
     const auto transform = relative_transform<Rest, Camera>(to, ExtendedVec3{});
     const NullDirection<Rest> n = transform(null_direction<Camera>(d));
-    worst = std::max(worst, relative_error(n, reference(to, ExtendedVec3{}, d)));
+    const double error = relative_error(n, reference(to, ExtendedVec3{}, d));
+    ASSERT_FALSE(std::isnan(error));
+    worst = std::max(worst, error);
   }
   const double ulp = 2.220446049250313e-16;
   EXPECT_LT(worst, gamma > robust_gamma ? 9.0 * ulp : (3.0 + 3.0 * gamma * gamma) * ulp)
