@@ -171,7 +171,8 @@ TEST_F(FailureTest, SignalsStopItAtOnceAndLeaveNothing) {
     });
     const std::chrono::duration<double> reaction = std::chrono::steady_clock::now() - sent;
     EXPECT_EQ(outcome.code, 128 + number) << outcome.err;
-    // The image would take minutes. Unloaded it stops within a tenth of a second, but a test cannot know the load.
+    // The image would take minutes. Unloaded it stops within a tenth of a second, but a test cannot know the
+    // load.
     EXPECT_LT(reaction.count(), 20.0);
     EXPECT_EQ(files(), Files{"slow.toml"});
   }
