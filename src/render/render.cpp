@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
+#include <new>
+#include <utility>
 
 #include "backlight/base/thread_pool.h"
 #include "backlight/camera/sampling.h"
@@ -38,8 +41,39 @@ struct TileGrid {
 // The pixels of one view: what a tile task needs.
 class ViewRenderer {
  public:
-  ViewRenderer(const Tracer& tracer, const RenderSettings& settings, int eye, PixelWriter writer)
-      : tracer_(tracer), settings_(settings), eye_(eye), writer_(writer) {}
+  ViewRenderer(const Tracer& tracer, const RenderSettings& settings, int eye, PartialImage& partial,
+               std::size_t view)
+      : tracer_(tracer),
+        settings_(settings),
+        eye_(eye),
+        writer_(tracer.scene(), partial.image, view),
+        image_(partial.image),
+        done_(partial.done[view]) {}
+
+  // Traces what is missing of a tile; gives up between two pixels when `stop` turns true, since a tile of
+  // many samples may take minutes.
+  void tile(const PixelBox& box, const std::atomic<bool>& stop, Scratch& scratch) {
+    for (int y = box.y0; y < box.y1; ++y) {
+      for (int x = box.x0; x < box.x1; ++x) {
+        std::uint8_t& is_done = done_[image_.offset(x, y)];
+        if (is_done != 0) continue;
+        if (stop.load(std::memory_order_relaxed)) return;
+        pixel_or_failure(x, y, scratch);
+        is_done = 1;
+      }
+    }
+  }
+
+ private:
+  void pixel_or_failure(int x, int y, Scratch& scratch) {
+    try {
+      pixel(x, y, scratch);
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw PixelFailure(x, y, error.what());
+    }
+  }
 
   void pixel(int x, int y, Scratch& scratch) {
     const Scene& scene = tracer_.scene();
@@ -62,7 +96,6 @@ class ViewRenderer {
     if (!finite) ++scratch.counts.non_finite;
   }
 
- private:
   bool data(int x, int y, Scratch& scratch) {
     const Scene& scene = tracer_.scene();
     const ImagePoint centre{x + 0.5, y + 0.5};
@@ -74,16 +107,18 @@ class ViewRenderer {
   const RenderSettings& settings_;
   int eye_;
   PixelWriter writer_;
+  const Image& image_;
+  std::vector<std::uint8_t>& done_;
 };
 
-std::vector<ViewRenderer> views_of(const Tracer& tracer, const RenderSettings& settings, Image& image) {
-  const Scene& scene = tracer.scene();
+std::vector<ViewRenderer> views_of(const Tracer& tracer, const RenderSettings& settings,
+                                   PartialImage& partial) {
   std::vector<ViewRenderer> views;
-  if (!scene.camera.stereo) {
-    views.emplace_back(tracer, settings, 0, PixelWriter(scene, image, 0));
+  if (!tracer.scene().camera.stereo) {
+    views.emplace_back(tracer, settings, 0, partial, 0);
   } else {
-    views.emplace_back(tracer, settings, -1, PixelWriter(scene, image, 0));
-    views.emplace_back(tracer, settings, +1, PixelWriter(scene, image, 1));
+    views.emplace_back(tracer, settings, -1, partial, 0);
+    views.emplace_back(tracer, settings, +1, partial, 1);
   }
   return views;
 }
@@ -105,36 +140,53 @@ std::size_t tile_count(const Scene& scene, const RenderSettings& settings) {
   return TileGrid(data_window(scene, settings)).count();
 }
 
-std::optional<RenderedImage> render_image(const Scene& scene, const RenderSettings& settings,
-                                          const std::atomic<bool>& stop, ProgressReporter* progress) {
+bool PartialImage::is_complete() const {
+  const auto all = [](const std::vector<std::uint8_t>& plane) {
+    return std::ranges::all_of(plane, [](std::uint8_t is_done) { return is_done != 0; });
+  };
+  return std::ranges::all_of(done, all);
+}
+
+PixelFailure::PixelFailure(int at_x, int at_y, const std::string& why)
+    : std::runtime_error("pixel " + std::to_string(at_x) + "," + std::to_string(at_y) + ": " + why),
+      x(at_x),
+      y(at_y) {}
+
+PartialImage begin_image(const Scene& scene, const RenderSettings& settings) {
+  PartialImage partial{Image(layout_of(scene, data_window(scene, settings))), {}};
+  const std::size_t views = std::max<std::size_t>(partial.image.layout().views.size(), 1);
+  partial.done.assign(views, std::vector<std::uint8_t>(partial.image.plane(0).size(), 0));
+  return partial;
+}
+
+RenderStatistics render_missing(const Scene& scene, const RenderSettings& settings, PartialImage& partial,
+                                const std::atomic<bool>& stop, ProgressReporter* progress) {
   const auto start = std::chrono::steady_clock::now();
   const TileGrid grid(data_window(scene, settings));
   const Tracer tracer(scene, settings.wavelengths);
-  Image image(layout_of(scene, grid.window));
-  std::vector<ViewRenderer> views = views_of(tracer, settings, image);
+  std::vector<ViewRenderer> views = views_of(tracer, settings, partial);
   std::vector<Scratch> scratches(static_cast<std::size_t>(std::max(1, settings.threads)),
                                  tracer.make_scratch());
 
-  const bool complete =
-      run_on_threads(grid.count(), settings.threads, stop, [&](std::size_t index, int thread) {
-        Scratch& scratch = scratches[static_cast<std::size_t>(thread)];
-        const PixelBox tile = grid.tile(index);
-        for (ViewRenderer& view : views) {
-          for (int y = tile.y0; y < tile.y1; ++y) {
-            for (int x = tile.x0; x < tile.x1; ++x) {
-              if (stop.load(std::memory_order_relaxed)) return;  // a tile of many samples may take minutes
-              view.pixel(x, y, scratch);
-            }
-          }
-        }
-        if (progress != nullptr) progress->advance();
-      });
-  if (!complete) return std::nullopt;
+  run_on_threads(grid.count(), settings.threads, stop, [&](std::size_t index, int thread) {
+    for (ViewRenderer& view : views) {
+      view.tile(grid.tile(index), stop, scratches[static_cast<std::size_t>(thread)]);
+    }
+    if (progress != nullptr) progress->advance();
+  });
 
-  RenderedImage result{std::move(image), summed(scratches)};
-  result.statistics.threads = settings.threads;
-  result.statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
+  RenderStatistics statistics = summed(scratches);
+  statistics.threads = settings.threads;
+  statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return statistics;
+}
+
+std::optional<RenderedImage> render_image(const Scene& scene, const RenderSettings& settings,
+                                          const std::atomic<bool>& stop, ProgressReporter* progress) {
+  PartialImage partial = begin_image(scene, settings);
+  const RenderStatistics statistics = render_missing(scene, settings, partial, stop, progress);
+  if (!partial.is_complete()) return std::nullopt;
+  return RenderedImage{std::move(partial.image), statistics};
 }
 
 }  // namespace backlight

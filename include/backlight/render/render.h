@@ -4,6 +4,9 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "backlight/film/exr.h"
 #include "backlight/film/image.h"
@@ -32,12 +35,40 @@ struct RenderedImage {
   RenderStatistics statistics;
 };
 
+/// An image while it is made: its pixels so far, and which of them are final.
+struct PartialImage {
+  Image image;
+  /// A plane for each view, laid out as the image's: 1 where the pixel is final, 0 where it is still to be
+  /// traced. Different threads may write different pixels.
+  std::vector<std::vector<std::uint8_t>> done;
+
+  [[nodiscard]] bool is_complete() const;
+};
+
 /// Number of tiles the image is cut into: the units that `progress` is advanced by.
 std::size_t tile_count(const Scene& scene, const RenderSettings& settings);
 
-/// Traces the image. Every pixel depends on the scene, the seed, the image number and its own place alone:
-/// the same bits for any number of threads, order of tiles and crop. Empty when `stop` turned true before the
-/// end.
+/// The image before its first pixel is traced: all of it 0, and nothing done.
+PartialImage begin_image(const Scene& scene, const RenderSettings& settings);
+
+/// Traces the pixels that are not done, until all are or `stop` turns true: the pixels in hand are then
+/// finished first, which takes a moment. `partial` is of this scene and these settings. Every pixel depends
+/// on the scene, the seed, the image number and its own place alone: the same bits for any number of threads,
+/// order of tiles and crop, and however often the image was put aside. The statistics are of this call.
+///
+/// An exception from a pixel leaves as a PixelFailure.
+RenderStatistics render_missing(const Scene& scene, const RenderSettings& settings, PartialImage& partial,
+                                const std::atomic<bool>& stop, ProgressReporter* progress);
+
+/// A pixel could not be traced: what() says which, and why.
+class PixelFailure : public std::runtime_error {
+ public:
+  PixelFailure(int at_x, int at_y, const std::string& why);
+  int x;
+  int y;
+};
+
+/// Begins and traces the whole image. Empty when `stop` turned true before the end.
 std::optional<RenderedImage> render_image(const Scene& scene, const RenderSettings& settings,
                                           const std::atomic<bool>& stop, ProgressReporter* progress);
 
