@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "backlight/base/vector.h"
+#include "backlight/surface/ray_clock.h"
 #include "exact.h"
 #include "placed_surface.h"
 
@@ -23,13 +24,15 @@ struct RestRay {
   TwoPart direction_split[3];
   double inverse_square;  // 1/n·n
   double inverse_length;  // 1/|n|
+  RayClock clock;
 
-  RestRay(const Vec3& from, const Vec3& along)
+  RestRay(const Vec3& from, const Vec3& along, const RayClock& time = {})
       : origin(from),
         direction(along),
         direction_split{split(along.x), split(along.y), split(along.z)},
         inverse_square(1.0 / glm::dot(along, along)),
-        inverse_length(std::sqrt(inverse_square)) {}
+        inverse_length(std::sqrt(inverse_square)),
+        clock(time) {}
 };
 
 /// The ray in a surface's local coordinates: point + t·direction, t a local length. `direction` is a unit
@@ -40,6 +43,7 @@ struct LocalLine {
   double lambda_centre;  // λ(t) = lambda_centre + (lambda_shift + t · lambda_per_length)
   double lambda_shift;
   double lambda_per_length;
+  RayClock clock;  // along t, not λ
 
   [[nodiscard]] double lambda(double t) const {
     return lambda_centre + (lambda_shift + t * lambda_per_length);
@@ -72,7 +76,9 @@ inline LocalLine local_line(const RestRay& ray, const PlacedSurface& surface) {
   const double per_length = 1.0 / length;
   const Vec3 unit = direction / length;
   const double shift = -glm::dot(point, unit);
-  return {point + shift * unit, unit, lambda, shift * per_length, per_length};
+  const RayClock clock{ray.clock.start + (lambda + shift * per_length) * ray.clock.rate,
+                       per_length * ray.clock.rate};
+  return {point + shift * unit, unit, lambda, shift * per_length, per_length, clock};
 }
 
 }  // namespace backlight

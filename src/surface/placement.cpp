@@ -1,5 +1,6 @@
 #include "backlight/surface/placement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -47,6 +48,16 @@ Placement::Placement(Vec3 position, Vec3 rotate_degrees, Vec3 scale) : position_
   const Mat3 turned = rotation(rotate_degrees);
   rest_from_local_ = Mat3{turned[0] * scale.x, turned[1] * scale.y, turned[2] * scale.z};
   local_from_rest_ = glm::transpose(Mat3{turned[0] / scale.x, turned[1] / scale.y, turned[2] / scale.z});
+}
+
+Placement Placement::around(const Placement& inner) const {
+  Placement whole;
+  whole.position_ = position_ + rest_from_local_ * inner.position_;
+  whole.rest_from_local_ = rest_from_local_ * inner.rest_from_local_;
+  whole.local_from_rest_ = inner.local_from_rest_ * local_from_rest_;
+  const Vec3 outer = glm::abs(scale_);
+  whole.scale_ = std::max({outer.x, outer.y, outer.z}) * inner.scale_;
+  return whole;
 }
 
 std::string problem(const Placement& placement) {

@@ -3,10 +3,11 @@
 
 #include "backlight/surface/surface_set.h"
 #include "placed_surface.h"
+#include "shape_table.h"
 
 namespace backlight {
 
-/// `local`: the crossing in local coordinates, near the surface to rounding; `part`: the face it is on.
-SurfacePoint surface_point(const PlacedSurface& surface, const Vec3& local, int part);
+/// `crossing`: one that the shape reported for the local line.
+SurfacePoint surface_point(const PlacedSurface& surface, const LocalLine& line, const Crossing& crossing);
 
 }  // namespace backlight

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "bounding_tree.h"
-#include "crossings.h"
 #include "local_line.h"
 #include "placed_surface.h"
+#include "shape_table.h"
 #include "surface_point.h"
 
 namespace backlight {
@@ -24,6 +24,7 @@ constexpr double rounding_room = 2e-15;
 struct FirstCrossing {
   double lambda = std::numeric_limits<double>::infinity();
   int part = 0;
+  bool unresolved = false;
 };
 
 /// Where the ray meets the plane (maybe at λ < 0), or infinity. Only the height above the plane counts: the
@@ -44,14 +45,14 @@ double plane_lambda(const Placement& placement, const RestRay& ray) {
 FirstCrossing first_crossing(const PlacedSurface& surface, const RestRay& ray, double lambda_min) {
   if (surface.shape.kind == ShapeKind::plane) {
     const double lambda = plane_lambda(surface.placement, ray);
-    return lambda > lambda_min ? FirstCrossing{lambda, 0} : FirstCrossing{};
+    return lambda > lambda_min ? FirstCrossing{lambda, 0, false} : FirstCrossing{};
   }
   const LocalLine line = local_line(ray, surface);
   const Crossings found = crossings(surface.shape, line, lambda_min, Wanted::first);
   for (int i = 0; i < found.count; ++i) {
     const double lambda = line.lambda(found.list[i].t);
     if (lambda > lambda_min) {
-      return {lambda, found.list[i].part};
+      return {lambda, found.list[i].part, found.list[i].unresolved};
     }
   }
   return {};
@@ -135,7 +136,7 @@ bool SurfaceSet::search_range(const RestRay& ray, double lambda_min, std::size_t
     const FirstCrossing crossing =
         first_crossing(surfaces_[static_cast<std::size_t>(index)], ray, lambda_min);
     if (crossing.lambda < best.lambda || (crossing.lambda == best.lambda && index < best.surface)) {
-      best = {crossing.lambda, index, crossing.part};
+      best = {crossing.lambda, index, crossing.part, crossing.unresolved};
       if constexpr (any) {
         return true;
       }
@@ -161,7 +162,7 @@ Hit SurfaceSet::search(const RestRay& ray, double lambda_min, double lambda_max)
     const FirstCrossing crossing =
         first_crossing(surfaces_[static_cast<std::size_t>(index)], ray, lambda_min);
     if (crossing.lambda < best.lambda) {
-      best = {crossing.lambda, index, crossing.part};
+      best = {crossing.lambda, index, crossing.part, crossing.unresolved};
       if constexpr (any) {
         return best;
       }
@@ -175,21 +176,23 @@ Hit SurfaceSet::search(const RestRay& ray, double lambda_min, double lambda_max)
   return best;
 }
 
-Hit SurfaceSet::nearest(const Vec3& origin, const Vec3& direction, double lambda_limit) const {
-  const Hit hit = search<false>(RestRay(origin, direction), 0.0, lambda_limit);
+Hit SurfaceSet::nearest(const Vec3& origin, const Vec3& direction, double lambda_limit,
+                        const RayClock& clock) const {
+  const Hit hit = search<false>(RestRay(origin, direction, clock), 0.0, lambda_limit);
   return hit.found() ? hit : Hit{};
 }
 
-bool SurfaceSet::blocked(const Vec3& origin, const Vec3& direction, double lambda_min,
-                         double lambda_max) const {
-  return search<true>(RestRay(origin, direction), lambda_min, lambda_max).found();
+bool SurfaceSet::blocked(const Vec3& origin, const Vec3& direction, double lambda_min, double lambda_max,
+                         const RayClock& clock) const {
+  return search<true>(RestRay(origin, direction, clock), lambda_min, lambda_max).found();
 }
 
-SurfacePoint SurfaceSet::resolve(const Hit& hit, const Vec3& origin, const Vec3& direction) const {
+SurfacePoint SurfaceSet::resolve(const Hit& hit, const Vec3& origin, const Vec3& direction,
+                                 const RayClock& clock) const {
   assert(hit.found());
   const PlacedSurface& surface = surfaces_[static_cast<std::size_t>(hit.surface)];
-  const LocalLine line = local_line(RestRay(origin, direction), surface);
-  const Crossings found = crossings(surface.shape, line, 0.0, Wanted::all);
+  const LocalLine line = local_line(RestRay(origin, direction, clock), surface);
+  const Crossings found = crossings(surface.shape, line, 0.0, Wanted::first);
   // λ is recomputed as it was, so the hit is found again exactly; a plane's λ has a formula of its own.
   const Crossing* nearest = nullptr;
   double off = std::numeric_limits<double>::infinity();
@@ -202,9 +205,11 @@ SurfacePoint SurfaceSet::resolve(const Hit& hit, const Vec3& origin, const Vec3&
   }
   if (nearest == nullptr) {  // a plane all but parallel to the ray
     const Vec3 offset = (origin - surface.placement.position()) + hit.lambda * direction;
-    return surface_point(surface, surface.placement.local_from_rest() * offset, hit.part);
+    LocalLine there = line;
+    there.point = surface.placement.local_from_rest() * offset;
+    return surface_point(surface, there, {0.0, hit.part, false});
   }
-  return surface_point(surface, line.at(nearest->t), nearest->part);
+  return surface_point(surface, line, *nearest);
 }
 
 BoundingSphere SurfaceSet::bounds(int surface) const {

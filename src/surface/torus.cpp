@@ -13,8 +13,9 @@
 // which is F divided by (ρ + R)² + y² - r² > 0 (as r < R), and is right to rounding of the coordinates.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "crossings.h"
+#include "shape_table.h"
 
 namespace backlight {
 namespace {
@@ -129,10 +130,9 @@ bool clip(const LocalLine& line, double major, double minor, double& low, double
   return low < high;
 }
 
-}  // namespace
-
-Crossings torus_crossings(double major, double minor, const LocalLine& line, double lambda_min,
-                          Wanted wanted) {
+Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
+  const double major = shape.values[0];
+  const double minor = shape.values[1];
   Crossings result;
   double low = 0.0;
   double high = 0.0;
@@ -160,6 +160,45 @@ Crossings torus_crossings(double major, double minor, const LocalLine& line, dou
     inside = inside_next;
   }
   return result;
+}
+
+LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
+  const double major = shape.values[0];
+  const double minor = shape.values[1];
+  const Vec3 p = line.at(crossing.t);
+  const double rho = std::hypot(p.x, p.z);
+  const double beside = rho - major;
+  const double scale = minor / std::hypot(beside, p.y);
+  const double on_rho = major + beside * scale;
+  const Vec3 on{p.x * (on_rho / rho), p.y * scale, p.z * (on_rho / rho)};
+  const Vec3 gradient{p.x / rho * beside, p.y, p.z / rho * beside};
+  return {on, gradient, longitude(p.x, p.z), 0.5 - std::atan2(p.y, beside) * (0.5 * std::numbers::inv_pi)};
+}
+
+std::string problem_of(const Shape& shape) {
+  const double major = shape.values[0];
+  const double minor = shape.values[1];
+  const std::string sizes = first_of(unless_positive("major", major), unless_positive("minor", minor));
+  return sizes.empty() && minor >= major ? "minor must be less than major" : sizes;
+}
+
+double bounding_radius(const Shape& shape, const Vec3& factor) {
+  const double across = std::max(factor.x, factor.z);
+  const double reach = (shape.values[0] + shape.values[1]) * across;
+  return factor.y <= across ? reach : std::hypot(reach, shape.values[1] * factor.y);
+}
+
+double half_extent(const Shape& shape, const Extent& e) {
+  return shape.values[0] * e.circle + shape.values[1] * e.sphere;
+}
+
+}  // namespace
+
+const ShapeMethods torus_methods{ShapeKind::torus, "torus",      true,     problem_of, bounding_radius,
+                                 half_extent,      crossings_of, point_of, nullptr};
+
+Shape torus(double major, double minor) {
+  return {ShapeKind::torus, {major, minor}, {}};
 }
 
 }  // namespace backlight

@@ -20,8 +20,8 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit) {
   const RestRayEvents& ray = rays.in(hit.frame);
   SeenPoint point;
   point.hit = hit;
-  point.surface = hub.frames[static_cast<std::size_t>(hit.frame)].scene->surfaces.resolve(hit.hit, ray.origin,
-                                                                                          ray.direction);
+  point.surface = hub.frames[static_cast<std::size_t>(hit.frame)].scene->surfaces.resolve(
+      hit.hit, ray.origin, ray.direction, ray.clock());
   point.to_camera = -ray.direction / glm::length(ray.direction);
   const bool outside = glm::dot(point.surface.normal, point.to_camera) >= 0.0;
   point.normal = outside ? point.surface.normal : -point.surface.normal;
@@ -54,6 +54,7 @@ std::optional<Arrival> arrival(RayInFrames& rays, const SeenPoint& point, const 
   if (light.kind == LightKind::point) a.inverse_square = 1.0 / (k.length * k.length);
   a.segment.start_in_surface_frame = point.surface.position + point.surface.error_bound * point.normal;
   a.segment.direction_in_surface_frame = k.x;
+  a.segment.clock_in_surface_frame = {point.proper_time, -k.length};
   return a;
 }
 

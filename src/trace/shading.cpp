@@ -97,7 +97,7 @@ Scratch::Scratch(const Hub& hub, const Scene& scene, std::size_t count)
 Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                      Scratch& scratch) {
   const Scene& scene = *context.scene;
-  const int index = object_of(scene, point.hit).material;
+  const int index = material_of(scene, point.hit, point.surface);
   const Material& material = scene.materials[static_cast<std::size_t>(index)];
   LinearRgb texel{0.0};
   if (material.texture) texel = texture_reflectance(material, point.surface);
@@ -116,7 +116,7 @@ Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, cons
 
 void shade_spectrum(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                     Scratch& s) {
-  const int index = object_of(*context.scene, point.hit).material;
+  const int index = material_of(*context.scene, point.hit, point.surface);
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
   const int n = static_cast<int>(s.wavelengths.size());
   std::fill(s.radiance.begin(), s.radiance.end(), 0.0);

@@ -10,13 +10,19 @@ const Object& object_of(const Scene& scene, const FirstHit& hit) {
   return scene.objects[static_cast<std::size_t>(object)];
 }
 
+int material_of(const Scene& scene, const FirstHit& hit, const SurfacePoint& point) {
+  const Object& object = object_of(scene, hit);
+  return object.member_materials.empty() ? object.material
+                                         : object.member_materials[static_cast<std::size_t>(point.member)];
+}
+
 FirstHit first_hit(const Hub& hub, RayInFrames& rays) {
   FirstHit first;
   double nearest = std::numeric_limits<double>::infinity();
   for (const int index : hub.occupied) {
     const RestRayEvents& ray = rays.in(index);
     const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(index)].scene->surfaces;
-    const Hit hit = surfaces.nearest(ray.origin, ray.direction, nearest - ray.start);
+    const Hit hit = surfaces.nearest(ray.origin, ray.direction, nearest - ray.start, ray.clock());
     if (!hit.found()) continue;
     first = {hit, index, Extended(ray.start) + Extended(hit.lambda)};
     nearest = double(first.lambda);
@@ -30,14 +36,15 @@ bool is_shadowed(const Hub& hub, RayInFrames& rays, const FirstHit& hit, const L
     const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(index)].scene->surfaces;
     if (index == hit.frame) {
       if (surfaces.blocked(segment.start_in_surface_frame, segment.direction_in_surface_frame, 0.0,
-                           segment.end)) {
+                           segment.end, segment.clock_in_surface_frame)) {
         return true;
       }
       continue;
     }
     const auto& to_frame = light.to_frame[static_cast<std::size_t>(index)];
-    const Vec3 start = rays.in(index).at(hit.lambda).x;
-    if (surfaces.blocked(start, to_frame(segment.direction).x, 0.0, segment.end)) return true;
+    const Event<Rest> start = rays.in(index).at(hit.lambda);
+    const NullDirection<Rest> direction = to_frame(segment.direction);
+    if (surfaces.blocked(start.x, direction.x, 0.0, segment.end, {start.t, -direction.length})) return true;
   }
   return false;
 }

@@ -108,8 +108,9 @@ struct Sky {
 /// One object of the file. Copies made by `repeat` share it.
 struct Object {
   std::string name;
-  int id = 0;        ///< 1, 2, ... in file order
-  int material = 0;  ///< index into Scene::materials
+  int id = 0;                         ///< 1, 2, ... in file order
+  int material = 0;                   ///< index into Scene::materials
+  std::vector<int> member_materials;  ///< of a solid made of several: by SurfacePoint::member
 };
 
 /// One inertial frame with all that is at rest in it.

@@ -15,7 +15,11 @@ class Placement {
   Placement() : Placement(Vec3{0.0}) {}
   explicit Placement(Vec3 position, Vec3 rotate_degrees = Vec3{0.0}, Vec3 scale = Vec3{1.0});
 
+  /// The placement of a part within something that is itself placed: first `inner`, then this.
+  [[nodiscard]] Placement around(const Placement& inner) const;
+
   [[nodiscard]] const Vec3& position() const { return position_; }
+  /// How much at most each local axis is stretched (with sign, unless one placement is around another).
   [[nodiscard]] const Vec3& scale() const { return scale_; }
   /// R·S: takes displacements (not points) from local to rest coordinates.
   [[nodiscard]] const Mat3& rest_from_local() const { return rest_from_local_; }

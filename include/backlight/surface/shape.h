@@ -3,27 +3,24 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "backlight/base/vector.h"
 
 namespace backlight {
 
-/// The kinds of closed-form surfaces.
-///
-/// Where the other kinds go: `implicit` (a general f(x) = 0 inside a box) and `csg` are kinds of this same
-/// enumeration, whose parameters are an index into tables that SurfaceSet keeps (formulas, part lists) so
-/// that Shape stays a plain value. An implicit surface answers the same question as the closed forms, "the
-/// ordered crossings of this local line" (src/surface/crossings.h); CSG merges the ordered crossings of its
-/// parts, which is why a solver reports all crossings of the whole line when asked to, and not only the first
-/// in front of the camera.
-enum class ShapeKind : std::uint8_t { sphere, box, cylinder, cone, torus, disk, plane, quadric };
+class Solid;
+
+/// The kinds of surfaces. What each can do is in one table, src/surface/shape_table.h.
+enum class ShapeKind : std::uint8_t { sphere, box, cylinder, cone, torus, disk, plane, quadric, csg };
 
 /// A surface in local coordinates (y up, centred on the local origin), as a plain value. Make one with the
 /// functions below; they do not validate, problem() does.
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
-  std::array<double, 10> values{};  ///< the arguments of the function that made it, in their order
+  std::array<double, 10> values{};       ///< the arguments of the function that made it, in their order
+  std::shared_ptr<const Solid> solid{};  ///< csg: what it is made of (surface/solid.h)
 };
 
 /// |x| = radius. Texture: u = 1/2 + atan2(x, z)/2pi, v = polar angle from +y over pi. So the +z axis pierces
@@ -64,6 +61,10 @@ Shape quadric(const std::array<double, 10>& coefficients);
 /// Whether the surface fits into no sphere (plane and quadric; an ellipsoid given as a quadric counts as
 /// such).
 bool is_infinite(const Shape& shape);
+
+/// Whether the shape has an inside. Of the closed forms all but the disk: a plane is the half-space y < 0, a
+/// quadric is solid where its left side is negative.
+bool is_solid(const Shape& shape);
 
 /// What is wrong with the shape ("radius must be positive and finite"), or an empty text.
 std::string problem(const Shape& shape);

@@ -8,6 +8,7 @@
 
 #include "backlight/base/vector.h"
 #include "backlight/surface/placement.h"
+#include "backlight/surface/ray_clock.h"
 #include "backlight/surface/shape.h"
 
 namespace backlight {
@@ -21,6 +22,7 @@ struct Hit {
   double lambda = std::numeric_limits<double>::infinity();  ///< ray parameter
   int surface = -1;                                         ///< as returned by SurfaceSet::add
   int part = 0;                                             ///< which face (documented with each shape)
+  bool unresolved = false;  ///< the root could not be isolated to full precision (surface/implicit.h)
 
   [[nodiscard]] bool found() const { return surface >= 0; }
 };
@@ -31,6 +33,7 @@ struct SurfacePoint {
   Vec3 normal{0.0};    ///< unit, geometric, outward; turn it towards the viewer if need be
   double u = 0.0;      ///< texture coordinates, as documented with each shape
   double v = 0.0;
+  int member = 0;  ///< of a solid made of several: the member that was hit (surface/solid.h); else 0
   /// No farther than this is `position` from the true surface: 16 machine epsilons of the coordinates that
   /// went into it. A ray that leaves from position ± error_bound·normal, away from the surface, does not meet
   /// the surface at its own start.
@@ -51,6 +54,8 @@ enum class SearchMethod { automatic, list, tree };
 /// the origin may be 10⁹ object sizes away: each surface solves its own problem about the ray's closest
 /// approach to its centre, found without rounding error (src/surface/local_line.h).
 ///
+/// `clock` tells the frame's time along the ray, which shapes whose formula depends on t ask for.
+///
 /// Fill with add(), then build() once; the queries are const, allocate nothing and may run in any number of
 /// threads.
 class SurfaceSet {
@@ -70,17 +75,19 @@ class SurfaceSet {
 
   /// The smallest λ in (0, lambda_limit) at which the ray meets a surface; of equal λ, the smallest index.
   [[nodiscard]] Hit nearest(const Vec3& origin, const Vec3& direction,
-                            double lambda_limit = std::numeric_limits<double>::infinity()) const;
+                            double lambda_limit = std::numeric_limits<double>::infinity(),
+                            const RayClock& clock = {}) const;
 
   /// Whether the ray meets any surface at a λ in the open interval (lambda_min, lambda_max),
   /// lambda_min >= 0.
-  [[nodiscard]] bool blocked(const Vec3& origin, const Vec3& direction, double lambda_min,
-                             double lambda_max) const;
+  [[nodiscard]] bool blocked(const Vec3& origin, const Vec3& direction, double lambda_min, double lambda_max,
+                             const RayClock& clock = {}) const;
 
   /// The point of a hit that nearest() found for this very ray. The position is not origin + λ direction,
   /// which from afar would carry the rounding of λ, but the crossing found again near the surface, and put
   /// onto it.
-  [[nodiscard]] SurfacePoint resolve(const Hit& hit, const Vec3& origin, const Vec3& direction) const;
+  [[nodiscard]] SurfacePoint resolve(const Hit& hit, const Vec3& origin, const Vec3& direction,
+                                     const RayClock& clock = {}) const;
 
   [[nodiscard]] BoundingSphere bounds(int surface) const;
   [[nodiscard]] BoundingSphere bounds() const;  ///< of the whole set

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "backlight/spacetime/frame.h"
+#include "backlight/surface/ray_clock.h"
 #include "backlight/trace/hub.h"
 
 namespace backlight {
@@ -30,6 +31,8 @@ struct RestRayEvents {
     const double step = double(lambda - Extended(start));
     return {time + step * time_rate, origin + step * direction};
   }
+  /// The frame's time by λ - start.
+  [[nodiscard]] RayClock clock() const { return {time, time_rate}; }
   /// D on the way to the camera; 1 where no light travels (light_delay = false).
   [[nodiscard]] DopplerFactor<Camera, Rest> doppler(bool light_delay) const {
     return {light_delay ? -1.0 / time_rate : 1.0};

@@ -20,6 +20,9 @@ struct FirstHit {
 /// The object whose surface was hit.
 const Object& object_of(const Scene& scene, const FirstHit& hit);
 
+/// The material there: index into Scene::materials. `point`: where the surface was hit.
+int material_of(const Scene& scene, const FirstHit& hit, const SurfacePoint& point);
+
 /// A camera ray in all frames that it was asked for: one per thread, used again for every ray.
 ///
 /// first_hit() asks for all frames with surfaces; any other frame is boosted when first asked for.
@@ -61,6 +64,7 @@ struct ShadowSegment {
   NullDirection<Source> direction;
   Vec3 start_in_surface_frame{0.0};  ///< the lit point, moved off its surface by the bound of its error
   Vec3 direction_in_surface_frame{0.0};
+  RayClock clock_in_surface_frame;
   double end = 1.0;
 };
 

@@ -1,0 +1,76 @@
+#include "csg_solid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shape_table.h"
+
+namespace backlight {
+namespace {
+
+AxisBox box_of(const PlacedSurface& surface) {
+  if (std::isfinite(surface.radius)) return axis_box(surface);
+  AxisBox everything;
+  everything.lo = Vec3{-infinite};
+  everything.hi = Vec3{infinite};
+  return everything;
+}
+
+AxisBox common(const AxisBox& a, const AxisBox& b) {
+  AxisBox box;
+  box.lo = glm::max(a.lo, b.lo);
+  box.hi = glm::min(a.hi, b.hi);
+  return box;
+}
+
+std::string problem_at(const SolidTree& tree, int depth) {
+  if (depth > deepest_solid) {
+    return "solids are nested deeper than " + std::to_string(deepest_solid) + " operations";
+  }
+  if (const std::string wrong = problem(tree.placement); !wrong.empty()) return wrong;
+  for (const SolidTree& part : tree.parts) {
+    const std::string wrong = part.parts.empty() ? problem(part) : problem_at(part, depth + 1);
+    if (!wrong.empty()) return wrong;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string problem(const SolidTree& tree) {
+  if (!tree.parts.empty()) return problem_at(tree, 1);
+  if (tree.shape.kind == ShapeKind::csg) return "an operation on solids needs at least one part";
+  if (!is_solid(tree.shape)) {
+    return std::string("a ") + methods(tree.shape).name + " encloses nothing, and cannot be part of a solid";
+  }
+  return first_of(problem(tree.shape), problem(tree.placement));
+}
+
+Solid::Solid(const SolidTree& tree) {
+  box_ = add(tree, Placement{}, -1, true, false);
+}
+
+AxisBox Solid::add(const SolidTree& tree, const Placement& outer, int parent, bool first, bool subtracted) {
+  const Placement placement = outer.around(tree.placement);
+  if (tree.parts.empty()) {
+    leaves_.push_back({place(tree.shape, placement), parent, first, subtracted, tree.member});
+    return box_of(leaves_.back().surface);
+  }
+  const int node = static_cast<int>(nodes_.size());
+  nodes_.push_back({tree.operation, parent, first, static_cast<int>(tree.parts.size())});
+  AxisBox box;
+  for (std::size_t i = 0; i < tree.parts.size(); ++i) {
+    const bool taken_away = tree.operation == SolidOperation::difference && i > 0;
+    const AxisBox part = add(tree.parts[i], placement, node, i == 0, subtracted != taken_away);
+    if (i == 0) {
+      box = part;
+    } else if (tree.operation == SolidOperation::unite) {
+      box.include(part);
+    } else if (tree.operation == SolidOperation::intersect) {
+      box = common(box, part);
+    }
+  }
+  return box;
+}
+
+}  // namespace backlight

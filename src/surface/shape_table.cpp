@@ -1,0 +1,50 @@
+#include "shape_table.h"
+
+#include <array>
+#include <numbers>
+
+namespace backlight {
+namespace {
+
+// In the order of ShapeKind.
+constexpr std::array<const ShapeMethods*, 9> table{&sphere_methods, &box_methods,     &cylinder_methods,
+                                                   &cone_methods,   &torus_methods,   &disk_methods,
+                                                   &plane_methods,  &quadric_methods, &csg_methods};
+
+}  // namespace
+
+const ShapeMethods& methods(ShapeKind kind) {
+  return *table[static_cast<std::size_t>(kind)];
+}
+
+std::string unless_positive(const char* name, double value) {
+  return value > 0.0 && std::isfinite(value) ? std::string{}
+                                             : std::string(name) + " must be positive and finite";
+}
+
+std::string first_of(std::string one, std::string other) {
+  return one.empty() ? other : one;
+}
+
+double longitude(double x, double z) {
+  return 0.5 + std::atan2(x, z) * (0.5 * std::numbers::inv_pi);
+}
+
+LocalPoint on_disc(double radius, double y, double side, const Vec3& p) {
+  const double scale = 0.5 / radius;
+  return {{p.x, y, p.z}, {0.0, side, 0.0}, 0.5 + p.x * scale, 0.5 + side * p.z * scale};
+}
+
+bool is_infinite(const Shape& shape) {
+  return std::isinf(methods(shape).bounding_radius(shape, Vec3{1.0}));
+}
+
+bool is_solid(const Shape& shape) {
+  return methods(shape).encloses;
+}
+
+std::string problem(const Shape& shape) {
+  return methods(shape).problem(shape);
+}
+
+}  // namespace backlight

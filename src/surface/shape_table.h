@@ -1,0 +1,121 @@
+// What each kind of shape can do: one row a kind.
+//
+// To add a shape: an enumerator in ShapeKind with the function that makes it (surface/shape.h), a file here
+// with its methods, and its row in shape_table.cpp. Nothing else in the room asks for the kind.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "backlight/surface/shape.h"
+#include "local_line.h"
+
+namespace backlight {
+
+/// A crossing at line.at(t).
+struct Crossing {
+  double t = 0.0;
+  int part = 0;             ///< which face
+  bool unresolved = false;  ///< could not be isolated to full precision
+};
+
+/// Ordered by t. A closed surface is crossed inwards and outwards in turn; a line that only touches counts as
+/// crossing twice at the same t, or not at all, as rounding decides.
+struct Crossings {
+  int count = 0;
+  Crossing list[4];
+  bool inside_before = false;  ///< whether the line comes from inside the solid (t = -infinity)
+
+  void add(double t, int part) { list[count++] = {t, part, false}; }
+};
+
+/// Which crossings are wanted. `first`: solvers may leave out those with λ <= lambda_min, and those behind
+/// the first of the others; what they do report is the same to the last bit. `all`: the whole line.
+enum class Wanted { first, all };
+
+/// The whole line's crossings of a solid, however many: what CSG merges.
+struct SolidProfile {
+  bool inside_before = false;
+  /// At a `touch` the line meets the surface without getting to its other side.
+  struct Event {
+    Crossing crossing;
+    bool touch = false;
+  };
+  std::vector<Event> events;  ///< in order of t
+
+  void clear() {
+    inside_before = false;
+    events.clear();
+  }
+};
+
+/// A point put onto the surface, in local coordinates. The gradient points outward and has any length.
+struct LocalPoint {
+  Vec3 position{0.0};
+  Vec3 gradient{0.0, 1.0, 0.0};
+  double u = 0.0;
+  double v = 0.0;
+  double error = 0.0;  ///< of the position, beyond rounding of the coordinates
+  int member = 0;      ///< of a solid made of several: which of them
+};
+
+/// Half the extent along one rest axis of a circle of radius 1 about the local y axis, of a unit sphere, and
+/// of the local unit vectors.
+struct Extent {
+  double circle;
+  double sphere;
+  double x, y, z;
+};
+
+/// One row of the table.
+struct ShapeMethods {
+  ShapeKind kind;
+  const char* name;
+  /// Whether the shape has an inside, so that CSG can take it.
+  bool encloses;
+  /// What is wrong with the shape, or an empty text.
+  std::string (*problem)(const Shape&);
+  /// Of the bounding sphere about the local origin, stretched by the factors >= 0 along the local axes;
+  /// infinity: none.
+  double (*bounding_radius)(const Shape&, const Vec3& factor);
+  /// Half the extent along a rest axis; not asked of a shape without bounds.
+  double (*half_extent)(const Shape&, const Extent&);
+  Crossings (*crossings)(const Shape&, const LocalLine&, double lambda_min, Wanted);
+  /// The point of a crossing that `crossings` reported for this line.
+  LocalPoint (*point)(const Shape&, const LocalLine&, const Crossing&);
+  /// All crossings of a shape that may have more than four; null: `crossings` reports them.
+  void (*profile)(const Shape&, const LocalLine&, SolidProfile&);
+};
+
+/// The row of a kind.
+const ShapeMethods& methods(ShapeKind kind);
+inline const ShapeMethods& methods(const Shape& shape) {
+  return methods(shape.kind);
+}
+
+inline Crossings crossings(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
+  return methods(shape).crossings(shape, line, lambda_min, wanted);
+}
+
+extern const ShapeMethods sphere_methods, box_methods, cylinder_methods, cone_methods, torus_methods,
+    disk_methods, plane_methods, quadric_methods, csg_methods;
+
+// Words and numbers that several shapes share.
+
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// "NAME must be positive and finite", or an empty text.
+std::string unless_positive(const char* name, double value);
+
+/// The first of two texts that is not empty.
+std::string first_of(std::string one, std::string other);
+
+/// Longitude about y as a fraction of a turn: 1/2 at +z, growing towards +x.
+double longitude(double x, double z);
+
+/// The point of a disc of `radius` at height y that faces up (side = 1) or down (side = -1).
+LocalPoint on_disc(double radius, double y, double side, const Vec3& p);
+
+}  // namespace backlight
