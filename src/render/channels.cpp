@@ -27,6 +27,8 @@ constexpr std::array data_channels{
     DataChannel{"N", "N.Y", [](const R& r) { return r.normal.y; }},
     DataChannel{"N", "N.Z", [](const R& r) { return r.normal.z; }},
     DataChannel{"objectId", "objectId.V", [](const R& r) { return static_cast<double>(r.object_id); }},
+    DataChannel{"light", "light.N", [](const R& r) { return static_cast<double>(r.lamps); }},
+    DataChannel{"light", "light.Y", [](const R& r) { return r.unshifted; }},
 };
 
 bool asked_for(const Scene& scene, std::string_view aov) {
@@ -61,6 +63,10 @@ ImageLayout layout_of(const Scene& scene, const PixelBox& data_window) {
 
 bool has_data_channels(const Scene& scene) {
   return !scene.film.aovs.empty();
+}
+
+bool has_light_channels(const Scene& scene) {
+  return asked_for(scene, "light");
 }
 
 PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)

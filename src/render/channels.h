@@ -14,6 +14,9 @@ ImageLayout layout_of(const Scene& scene, const PixelBox& data_window);
 /// Whether any data channel is asked for.
 bool has_data_channels(const Scene& scene);
 
+/// Whether those of the light that reaches a surface are asked for, which cost as much as the colour.
+bool has_light_channels(const Scene& scene);
+
 /// Writes one view's pixels, by the channel order of layout_of.
 class PixelWriter {
  public:

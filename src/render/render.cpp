@@ -99,8 +99,11 @@ class ViewRenderer {
   bool data(int x, int y, Scratch& scratch) {
     const Scene& scene = tracer_.scene();
     const ImagePoint centre{x + 0.5, y + 0.5};
-    const auto ray = camera_ray(scene.camera, centre, effects_at(scene, centre), eye_);
-    return writer_.data(x, y, ray ? tracer_.surface(*ray, scratch) : SurfaceRecord{});
+    const Effects& effects = effects_at(scene, centre);
+    const auto ray = camera_ray(scene.camera, centre, effects, eye_);
+    SurfaceRecord record = ray ? tracer_.surface(*ray, scratch) : SurfaceRecord{};
+    if (ray && has_light_channels(scene)) tracer_.add_light(*ray, effects, record, scratch);
+    return writer_.data(x, y, record);
   }
 
   const Tracer& tracer_;

@@ -66,11 +66,13 @@ KeyTable film() {
         Nothing{},
         "",
         "Channels besides the colour, of the ray through the pixel's centre: light-travel distance, Doppler "
-        "factor, world time and own time of the emission, point and normal in the object's rest frame, and "
-        "the "
-        "object's number in the file.",
+        "factor, world time and own time of the emission, point and normal in the object's rest frame, the "
+        "object's number in the file, and the light: `light.N`, how many lights reach the point (its own one "
+        "of them; -1 where there is no surface), and `light.Y`, the luminance it would have if no colour "
+        "were "
+        "shifted.",
         {},
-        {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId"}}},
+        {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId", "light"}}},
       ""};
 }
 

@@ -135,4 +135,16 @@ void shade_spectrum(const ShadingContext& context, const SeenPoint& point, const
                 });
 }
 
+int lamps_reaching(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
+                   Scratch& scratch) {
+  const int index = object_of(*context.scene, point.hit).material;
+  const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
+  int count = material.emits ? 1 : 0;
+  for_each_lamp(context, point, effects, material, scratch,
+                [&count](std::size_t, double irradiance, double, const Arrival&) {
+                  if (irradiance > 0.0) ++count;
+                });
+  return count;
+}
+
 }  // namespace backlight

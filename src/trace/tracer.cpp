@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "light_record.h"
+
 namespace backlight {
 namespace {
 
@@ -39,7 +41,8 @@ Tracer::Tracer(const Scene& scene, int wavelengths)
       wavelengths_(wavelengths > 0 ? wavelengths : default_wavelength_count),
       spectral_(wavelengths > 0),
       stars_(star_images(scene, hub_, wavelengths_)) {
-  if (!spectral_ || any_without_shift(scene)) rest_colours_ = RestColours(scene, wavelengths_);
+  if (!spectral_ || any_without_shift(scene) || records_light(scene))
+    rest_colours_ = RestColours(scene, wavelengths_);
 }
 
 Scratch Tracer::make_scratch() const {

@@ -141,7 +141,7 @@ struct FilmSettings {
   int height = 526;
   int samples = 1;
   unsigned seed = 0;
-  std::vector<std::string> aovs;  ///< of: Z doppler emissionTime properTime P N objectId
+  std::vector<std::string> aovs;  ///< of: Z doppler emissionTime properTime P N objectId light
 };
 
 struct Scene {

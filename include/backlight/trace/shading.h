@@ -48,4 +48,8 @@ Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, cons
 void shade_spectrum(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                     Scratch& scratch);
 
+/// How many lights reach a seen point; that of its own is counted as one.
+int lamps_reaching(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
+                   Scratch& scratch);
+
 }  // namespace backlight

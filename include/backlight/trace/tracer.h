@@ -17,6 +17,8 @@ struct SurfaceRecord {
   double proper_time = 0.0;    ///< the object's frame time of it, scene seconds
   Vec3 position{0.0};          ///< P, in the object's rest frame
   Vec3 normal{0.0};            ///< N, facing the ray, in the object's rest frame
+  int lamps = -1;              ///< lights that reach the point, own emission one of them; -1: no surface
+  double unshifted = 0.0;      ///< luminance of the film colour, had no wavelength been shifted on its way
 };
 
 /// Traces rays of one image. Immutable; each thread brings its own Scratch.
@@ -33,6 +35,10 @@ class Tracer {
 
   /// What the ray meets.
   SurfaceRecord surface(const CameraRay& ray, Scratch& scratch) const;
+
+  /// Fills `lamps` and `unshifted` of the record of the same ray. Needs the data channels "light" in the
+  /// scene's film.
+  void add_light(const CameraRay& ray, const Effects& effects, SurfaceRecord& record, Scratch& scratch) const;
 
   /// The stars of pixel (x, y) of the full image that no object hides from this eye.
   LinearRgb stars(int x, int y, int eye, Scratch& scratch) const;

@@ -1,0 +1,11 @@
+// The data channels "light": why a pixel is black.
+#pragma once
+
+#include "backlight/scene/scene.h"
+
+namespace backlight {
+
+/// Whether the scene's film asks for them.
+bool records_light(const Scene& scene);
+
+}  // namespace backlight
