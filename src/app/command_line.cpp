@@ -15,7 +15,7 @@
 namespace backlight {
 namespace {
 
-constexpr std::array command_names{"render", "check", "view", "info", "schema"};
+constexpr std::array command_names{"render", "check", "view", "info", "assemble", "schema"};
 
 // Help that reads like a manual page: names, value and meaning in columns, wrapped at 100 characters.
 class HelpFormatter : public CLI::Formatter {
@@ -329,10 +329,39 @@ Parser info_parser() {
   return parser;
 }
 
+Parser assemble_parser() {
+  struct State {
+    AssembleOptions options;
+    std::vector<std::string> files;
+  };
+  const auto state = std::make_shared<State>();
+  Parser parser{
+      make_app("assemble",
+               "Put an image together that was rendered in parts with --crop; the bytes are those of "
+               "the image rendered as a whole.",
+               "assemble PART.exr... -o IMAGE.exr [options]"),
+      {}};
+  CLI::App& app = *parser.app;
+  AssembleOptions& options = state->options;
+  app.add_option("PART.exr", state->files);
+  add_value(app, "-o,--output", "IMAGE.exr", "file to write", parse_text,
+            [&options](std::string file) { options.output = file; });
+  add_flag(app, "--half", options.narrow,
+           "make 16-bit colour of parts rendered with --float, unless a value is too large for it");
+  parser.finish = [state]() -> Command {
+    AssembleOptions finished = state->options;
+    finished.parts = image_files(state->files);
+    if (finished.output.empty()) throw CLI::ValidationError("", "name the image to write with -o");
+    return finished;
+  };
+  return parser;
+}
+
 Parser parser_of(const std::string& name) {
   if (name == "check") return check_parser();
   if (name == "view") return view_parser();
   if (name == "info") return info_parser();
+  if (name == "assemble") return assemble_parser();
   if (name == "schema") return schema_parser();
   return render_parser();
 }

@@ -10,5 +10,6 @@ int run(const CheckOptions& options);
 int run(const SchemaOptions& options);
 int run(const ViewOptions& options);
 int run(const InfoOptions& options);
+int run(const AssembleOptions& options);
 
 }  // namespace backlight

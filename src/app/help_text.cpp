@@ -17,6 +17,7 @@ Commands:
   check  SCENE.toml   look for mistakes in a scene and explain what it needs; renders nothing
   view   IMAGE.exr    make a PNG to look at: exposure, tone curve, sRGB; contact sheets
   info   IMAGE.exr    tell what made an image
+  assemble PART.exr   put an image together that was rendered in parts with --crop
   schema              print the JSON Schema of the scene format, for editors
 
 'backlight COMMAND --help' lists the options of a command; 'backlight --version' prints the version.

@@ -1,6 +1,5 @@
 #include <iomanip>
 #include <iostream>
-#include <sstream>
 #include <string>
 
 #include "backlight/film/exr.h"
@@ -10,21 +9,6 @@
 
 namespace backlight {
 namespace {
-
-std::string text_of(const ExrValue& value) {
-  std::ostringstream text;
-  text << std::setprecision(17);
-  if (const auto* whole = std::get_if<std::int32_t>(&value)) text << *whole;
-  if (const auto* single = std::get_if<float>(&value)) text << std::setprecision(9) << *single;
-  if (const auto* number = std::get_if<double>(&value)) text << *number;
-  if (const auto* string = std::get_if<std::string>(&value)) text << *string;
-  if (const auto* vector = std::get_if<Vec3>(&value))
-    text << vector->x << ' ' << vector->y << ' ' << vector->z;
-  if (const auto* list = std::get_if<std::vector<std::string>>(&value)) {
-    for (const std::string& item : *list) text << (&item == &list->front() ? "" : ", ") << item;
-  }
-  return text.str();
-}
 
 void print_row(const std::string& name, const std::string& value) {
   if (value.empty()) return;

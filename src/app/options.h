@@ -64,13 +64,20 @@ struct InfoOptions {
   std::vector<std::filesystem::path> files;
 };
 
+struct AssembleOptions {
+  std::vector<std::filesystem::path> parts;
+  std::filesystem::path output;
+  bool narrow = false;  ///< colour of 32 bits becomes one of 16 bits where a whole render would have it so
+};
+
 /// Help or the version was asked for, and is to go to stdout; or the command line is wrong.
 struct Answer {
   std::string text;
   bool usage_error = false;
 };
 
-using Command = std::variant<Answer, RenderOptions, CheckOptions, SchemaOptions, ViewOptions, InfoOptions>;
+using Command = std::variant<Answer, RenderOptions, CheckOptions, SchemaOptions, ViewOptions, InfoOptions,
+                             AssembleOptions>;
 
 /// Reads the arguments after the program's name.
 Command parse_command_line(const std::vector<std::string>& arguments);

@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
+#include <iomanip>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace backlight {
@@ -100,6 +102,21 @@ bool has_own_place(const std::string& name) {
 }
 
 }  // namespace
+
+std::string text_of(const ExrValue& value) {
+  std::ostringstream text;
+  text << std::setprecision(17);
+  if (const auto* whole = std::get_if<std::int32_t>(&value)) text << *whole;
+  if (const auto* single = std::get_if<float>(&value)) text << std::setprecision(9) << *single;
+  if (const auto* number = std::get_if<double>(&value)) text << *number;
+  if (const auto* string = std::get_if<std::string>(&value)) text << *string;
+  if (const auto* vector = std::get_if<Vec3>(&value))
+    text << vector->x << ' ' << vector->y << ' ' << vector->z;
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value)) {
+    for (const std::string& item : *list) text << (&item == &list->front() ? "" : ", ") << item;
+  }
+  return text.str();
+}
 
 Imf::Header to_imf(const ImageLayout& layout, const ExrHeader& description) {
   Imf::Header header(to_imath(layout.display), to_imath(layout.data), 1.0F, Imath::V2f(0.0F, 0.0F), 1.0F,

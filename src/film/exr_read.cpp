@@ -75,37 +75,9 @@ ExrInfo read_info(const std::filesystem::path& path) {
   return from_imf(header);
 }
 
-/// The pixels, from top to bottom. Memory is touched only as rows arrive, so that a damaged header that
-/// announces a great picture fails at its first missing row.
-Image read_pixels(const std::filesystem::path& path, ImageLayout layout) {
-  FileStream stream(path);
-  Imf::InputFile input(stream, 0);
-  const PixelBox& data = layout.data;
-  const auto width = static_cast<std::size_t>(data.width());
-  const auto height = static_cast<std::size_t>(data.height());
-  std::vector<std::vector<float>> planes(layout.channels.size());
-  Imf::FrameBuffer buffer;
-  for (std::size_t channel = 0; channel < planes.size(); ++channel) {
-    planes[channel].reserve(width * height);
-    buffer.insert(layout.channels[channel].name,
-                  Imf::Slice::Make(Imf::FLOAT, planes[channel].data(), Imath::V2i(data.x0, data.y0),
-                                   data.width(), data.height()));
-  }
-  input.setFrameBuffer(buffer);
-  constexpr int band_rows = 64;
-  for (int row = data.y0; row < data.y1; row += band_rows) {
-    const int end = std::min(data.y1, row + band_rows);
-    for (std::vector<float>& plane : planes) {
-      plane.resize(width * static_cast<std::size_t>(end - data.y0));  // within what is reserved: stays put
-    }
-    input.readPixels(row, end - 1);
-  }
-  return Image(std::move(layout), std::move(planes));
-}
-
 /// `read()`, its exceptions turned into failures.
 template <typename T>
-Result<T> without_exceptions(const std::filesystem::path& path, const std::function<T()>& read) {
+Result<T> without_exceptions(const std::filesystem::path& path, const std::function<Result<T>()>& read) {
   const std::string what = "cannot read " + path.string() + ": ";
   try {
     return read();
@@ -120,14 +92,98 @@ Result<T> without_exceptions(const std::filesystem::path& path, const std::funct
 
 }  // namespace
 
+class ExrReader::Implementation {
+ public:
+  // The header is judged by read_info before a table is allocated for what it announces.
+  explicit Implementation(std::filesystem::path path)
+      : path_(std::move(path)), info_(read_info(path_)), stream_(path_), input_(stream_, 0) {}
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] const ExrInfo& info() const { return info_; }
+
+  void read_rows(int first, int count, std::span<const std::span<float>> planes) {
+    const ImageLayout& layout = info_.layout;
+    const PixelBox& data = layout.data;
+    const std::size_t pixels = static_cast<std::size_t>(data.width()) * static_cast<std::size_t>(count);
+    if (count < 1 || first < data.y0 || first > data.y1 - count || planes.size() != layout.channels.size()) {
+      throw std::runtime_error("the rows asked for are not in the picture");
+    }
+    Imf::FrameBuffer buffer;
+    for (std::size_t channel = 0; channel < planes.size(); ++channel) {
+      if (planes[channel].size() != pixels) throw std::runtime_error("the rows do not fit the planes");
+      buffer.insert(layout.channels[channel].name,
+                    Imf::Slice::Make(Imf::FLOAT, planes[channel].data(), Imath::V2i(data.x0, first),
+                                     data.width(), count));
+    }
+    input_.setFrameBuffer(buffer);
+    input_.readPixels(first, first + count - 1);
+  }
+
+ private:
+  std::filesystem::path path_;
+  ExrInfo info_;
+  FileStream stream_;
+  Imf::InputFile input_;
+};
+
+ExrReader::ExrReader(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+ExrReader::ExrReader(ExrReader&&) noexcept = default;
+ExrReader& ExrReader::operator=(ExrReader&&) noexcept = default;
+ExrReader::~ExrReader() = default;
+
+Result<ExrReader> ExrReader::open(const std::filesystem::path& path) {
+  return without_exceptions<ExrReader>(path,
+                                       [&] { return ExrReader(std::make_unique<Implementation>(path)); });
+}
+
+const ExrInfo& ExrReader::info() const {
+  return implementation_->info();
+}
+
+Result<void> ExrReader::read_rows(int first, int count, std::span<const std::span<float>> planes) {
+  return without_exceptions<void>(implementation_->path(), [&]() -> Result<void> {
+    implementation_->read_rows(first, count, planes);
+    return {};
+  });
+}
+
+namespace {
+
+// Memory is touched only as rows arrive, so that a damaged header that announces a great picture fails at its
+// first missing row.
+Result<Image> read_pixels(ExrReader& reader) {
+  const ImageLayout& layout = reader.info().layout;
+  const PixelBox& data = layout.data;
+  const auto width = static_cast<std::size_t>(data.width());
+  std::vector<std::vector<float>> planes(layout.channels.size());
+  for (std::vector<float>& plane : planes) plane.reserve(width * static_cast<std::size_t>(data.height()));
+  constexpr int band_rows = 64;
+  for (int row = data.y0; row < data.y1; row += band_rows) {
+    const int count = std::min(data.y1 - row, band_rows);
+    std::vector<std::span<float>> band;
+    for (std::vector<float>& plane : planes) {
+      plane.resize(plane.size() + width * static_cast<std::size_t>(count));
+      band.push_back(std::span(plane).last(width * static_cast<std::size_t>(count)));
+    }
+    if (auto read = reader.read_rows(row, count, band); !read.ok()) return read.failure();
+  }
+  return Image(layout, std::move(planes));
+}
+
+}  // namespace
+
 Result<ExrInfo> read_exr_info(const std::filesystem::path& path) {
   return without_exceptions<ExrInfo>(path, [&] { return read_info(path); });
 }
 
 Result<ExrPicture> read_exr(const std::filesystem::path& path) {
-  return without_exceptions<ExrPicture>(path, [&] {
-    ExrInfo info = read_info(path);
-    return ExrPicture{read_pixels(path, std::move(info.layout)), std::move(info.header)};
+  return without_exceptions<ExrPicture>(path, [&]() -> Result<ExrPicture> {
+    auto reader = ExrReader::open(path);
+    if (!reader.ok()) return reader.failure();
+    auto image = read_pixels(reader.value());
+    if (!image.ok()) return image.failure();
+    return ExrPicture{std::move(image).value(), reader.value().info().header};
   });
 }
 

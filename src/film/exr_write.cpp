@@ -14,15 +14,10 @@
 #include "backlight/base/files.h"
 #include "backlight/film/exr.h"
 #include "exr_header.h"
+#include "half_range.h"
 
 namespace backlight {
 namespace {
-
-constexpr float greatest_half = 65504.0F;
-
-bool fits_half(float value) {
-  return !std::isfinite(value) || std::abs(value) <= greatest_half;
-}
 
 /// OpenEXR writes through this. A failure must leave as an exception; the file keeps the reason.
 class CheckedStream : public Imf::OStream {

@@ -23,6 +23,9 @@ namespace backlight {
 /// and stringvector.
 using ExrValue = std::variant<std::int32_t, float, double, std::string, Vec3, std::vector<std::string>>;
 
+/// The value as a reader would write it: numbers with all their digits, lists with commas between.
+std::string text_of(const ExrValue& value);
+
 struct ExrAttribute {
   std::string name;  ///< "backlight/..." for what is ours
   ExrValue value;
@@ -126,5 +129,27 @@ struct ExrInfo {
   ExrHeader header;
 };
 Result<ExrInfo> read_exr_info(const std::filesystem::path& path);
+
+/// Reads rows of a file that need not fit into memory as a whole. What read_exr fails on, this fails on: in
+/// `open` for the header, in `read_rows` for the rows.
+class ExrReader {
+ public:
+  static Result<ExrReader> open(const std::filesystem::path& path);
+
+  ExrReader(ExrReader&&) noexcept;
+  ExrReader& operator=(ExrReader&&) noexcept;
+  ~ExrReader();
+
+  [[nodiscard]] const ExrInfo& info() const;
+
+  /// The rows first <= j < first + count, which must lie in the data window, as planes in the order of the
+  /// layout's channels: each of count * data.width() floats.
+  Result<void> read_rows(int first, int count, std::span<const std::span<float>> planes);
+
+ private:
+  class Implementation;
+  explicit ExrReader(std::unique_ptr<Implementation> implementation);
+  std::unique_ptr<Implementation> implementation_;
+};
 
 }  // namespace backlight
