@@ -20,13 +20,10 @@ struct NotYet {
   std::string_view name;
   std::string_view instead;
 };
-constexpr std::array<NotYet, 5> keys_not_yet{{{"film", "tolerance", "give 'samples' instead"},
+constexpr std::array<NotYet, 4> keys_not_yet{{{"film", "tolerance", "give 'samples' instead"},
                                               {"object", "f", ""},
                                               {"object", "bounds", ""},
-                                              {"object", "part", ""},
                                               {"object", "file", ""}}};
-constexpr std::array<std::string_view, 6> shapes_not_yet{"implicit",   "union", "intersection",
-                                                         "difference", "mesh",  "polynomial"};
 
 bool is_identifier(const std::string& name) {
   const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
@@ -53,7 +50,7 @@ class Checker {
     }
     required(node, keys, where);
     if (variant != nullptr) {
-      required(node, *variant, where + " (" + std::string(variant->name.substr(keys.name.size() + 1)) + ")");
+      required(node, *variant, where + " (" + std::string(choice_of(*variant)) + ")");
     }
   }
 
@@ -84,7 +81,7 @@ class Checker {
       return find_key(*find_variant(keys, choice), name) != nullptr;
     };
     return std::any_of(selector.choices.begin(), selector.choices.end(), has) || name == "f" ||
-           name == "bounds" || name == "part" || name == "file";
+           name == "bounds" || name == "file";
   }
 
   void unknown(const Entry& entry, const KeyTable& keys, const KeyTable* variant, const std::string& where) {
@@ -113,7 +110,7 @@ class Checker {
     }
     std::vector<std::string> own;
     for (const Key& key : variant.keys) own.push_back("'" + std::string(key.name) + "'");
-    const std::string chosen(variant.name.substr(keys.name.size() + 1));
+    const std::string chosen(choice_of(variant));
     if (owners.empty()) return {};
     return "'" + name + "' is for " + std::string(keys.selector) + " " + listed(owners) + "; " + chosen +
            " has " + (own.empty() ? "no key of its own" : listed(own, "and"));
@@ -159,7 +156,10 @@ class Checker {
       case ValueKind::numbers:
         return numbers_.numbers(node, key, form);
       case ValueKind::colours:
-        return numbers_.colours(node, key, form);
+      case ValueKind::points:
+        return numbers_.triples(node, key, form);
+      case ValueKind::formula:
+        return numbers_.formula(node);
       case ValueKind::choice:
         return choice(node, key);
       case ValueKind::choices:
@@ -191,9 +191,14 @@ class Checker {
     const std::string text = *node.text();
     if (std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end()) return;
     node.value = Invalid{};
-    const bool later = key.name == "shape" &&
-                       std::find(shapes_not_yet.begin(), shapes_not_yet.end(), text) != shapes_not_yet.end();
-    if (later) return error(node.place, "the shape '" + text + "' is not available in this version");
+    if (key.name == "shape" && (text == "mesh" || text == "implicit")) {
+      return error(node.place, "the shape '" + text + "' is not available in this version");
+    }
+    if (key.name == "shape" && (text == "polynomial" || text == "csg")) {
+      return error(node.place, "'" + text + "' is not a value of 'shape'",
+                   text == "csg" ? "it is one of union, intersection or difference, with [[object.part]]"
+                                 : "write it as shape = \"implicit\" with a formula f");
+    }
     const std::vector<std::string> names(key.choices.begin(), key.choices.end());
     std::string hint = did_you_mean(text, names);
     if (hint.empty()) hint = "it is one of " + listed(names);
@@ -215,6 +220,9 @@ class Checker {
   void tables(Node& node, const Key& key, const ValueForm& form) {
     const KeyTable& keys = *find_table(form.table);
     const std::string where = "[[" + std::string(keys.name) + "]]";
+    if (node.array()->empty() && key.name == "part") {
+      return error(node.place, "'part' is empty: a solid is made of at least one part");
+    }
     for (Node& element : *node.array()) {
       if (element.table() != nullptr) {
         table(element, keys, where);

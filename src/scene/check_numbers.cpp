@@ -34,6 +34,20 @@ void NumberCheck::number(Node& node, const Key& key) {
   node.value = std::move(expression);
 }
 
+void NumberCheck::formula(Node& node) {
+  auto parsed = Expression::parse(*node.text(), formula_variables(description_));
+  if (const auto* wrong = std::get_if<ExpressionError>(&parsed)) {
+    expression_error(node, *wrong);
+    node.value = Invalid{};
+    return;
+  }
+  Expression expression = std::get<Expression>(std::move(parsed));
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    if (expression.uses(formula_coordinates + i)) used_[i] = true;
+  }
+  node.value = std::move(expression);
+}
+
 // The caret goes to the place within the string, where the string is written as it reads.
 void NumberCheck::expression_error(const Node& node, const ExpressionError& wrong) {
   Place place = node.place;
@@ -62,13 +76,13 @@ void NumberCheck::numbers(Node& node, const Key& key, const ValueForm& form) {
   for (Node& element : *node.array()) number(element, key);
 }
 
-void NumberCheck::colours(Node& node, const Key& key, const ValueForm& form) {
+void NumberCheck::triples(Node& node, const Key& key, const ValueForm& form) {
   NodeArray& array = *node.array();
   const bool lists =
       std::all_of(array.begin(), array.end(), [](const Node& n) { return n.array() != nullptr; });
   if (!lists || array.size() != static_cast<std::size_t>(form.count)) {
-    error(node.place,
-          "'" + std::string(key.name) + "' must be " + form_words(form) + ", each [red, green, blue]");
+    error(node.place, "'" + std::string(key.name) + "' must be " + form_words(form) + ", each " +
+                          (form.kind == ValueKind::colours ? "[red, green, blue]" : "[x, y, z]"));
     node.value = Invalid{};
     return;
   }

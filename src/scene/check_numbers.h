@@ -19,7 +19,10 @@ class NumberCheck {
 
   void number(Node& node, const Key& key);
   void numbers(Node& node, const Key& key, const ValueForm& form);
-  void colours(Node& node, const Key& key, const ValueForm& form);
+  /// Colours or points.
+  void triples(Node& node, const Key& key, const ValueForm& form);
+  /// An expression of x, y, z and the description's variables, in this order (formula_variables).
+  void formula(Node& node);
 
   /// For each variable, whether any expression so far uses it.
   [[nodiscard]] const std::vector<bool>& used() const { return used_; }

@@ -1,37 +1,12 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "compile_parts.h"
+#include "compile_shapes.h"
 
 namespace backlight {
 namespace {
 
 constexpr double most_copies = 1e7;
-
-Shape read_shape(const TableView& object) {
-  const std::string name = object.text("shape");
-  const auto n = [&](std::string_view key) { return object.number(key); };
-  if (name == "box") return box(object.vector("size"));
-  if (name == "cylinder") return cylinder(n("radius"), n("height"));
-  if (name == "cone") return cone(n("radius"), n("top_radius"), n("height"));
-  if (name == "torus") return torus(n("major"), n("minor"));
-  if (name == "disk") return disk(n("radius"));
-  if (name == "plane") return plane();
-  if (name == "quadric") {
-    const std::vector<double> written = object.numbers("coefficients");
-    std::array<double, 10> coefficients{};
-    std::copy(written.begin(), written.end(), coefficients.begin());
-    return quadric(coefficients);
-  }
-  return sphere(n("radius"));
-}
-
-Vec3 read_scale(const TableView& object) {
-  const Node* written = object.node_of("scale");
-  return written != nullptr && written->array() != nullptr ? object.vector("scale")
-                                                           : Vec3{object.number("scale")};
-}
 
 // How often, and how far apart.
 struct Lattice {
@@ -78,16 +53,15 @@ void compile_object(Compilation& c, const Node& node, Materials& materials) {
   const RestPlace place = c.frames.rest_of(table, table.vector("position"));
   const Placement placement(place.position, rotate, read_scale(table));
   const Lattice lattice = read_lattice(table);
-  const bool complete = table.complete();
-  const Shape shape = complete ? read_shape(table) : sphere(1.0);
+  const auto compiled = compile_shape(c, table, materials, object.material);
+  if (compiled) object.member_materials = compiled->member_materials;
   c.scene.objects.push_back(object);
-  if (!complete || c.values.diagnostics.error_count() > errors) return;
-  if (const std::string wrong = problem(shape); !wrong.empty()) return table.error("shape", wrong);
+  if (!compiled || c.values.diagnostics.error_count() > errors) return;
   if (const std::string wrong = problem(placement); !wrong.empty()) {
     return table.error(table.has("scale") ? "scale" : "position", wrong);
   }
   SceneFrame& frame = c.scene.frames[static_cast<std::size_t>(place.frame)];
-  add_copies(frame, object.id - 1, shape, placement, lattice, rotate);
+  add_copies(frame, object.id - 1, compiled->shape, placement, lattice, rotate);
 }
 
 }  // namespace

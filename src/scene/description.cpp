@@ -22,4 +22,10 @@ SourceSpan Description::span(const Place& place) const {
           static_cast<int>(place.length)};
 }
 
+std::vector<std::string> formula_variables(const Description& description) {
+  std::vector<std::string> names{"x", "y", "z"};
+  names.insert(names.end(), description.variables.begin(), description.variables.end());
+  return names;
+}
+
 }  // namespace backlight

@@ -46,6 +46,10 @@ inline Key choice(std::string_view name, DefaultValue value, std::vector<std::st
   return {name, {ValueKind::choice}, std::move(value), "", meaning, {}, std::move(choices)};
 }
 
+inline Key points(std::string_view name, int count, std::string_view unit, std::string_view meaning) {
+  return {name, {{ValueKind::points, count}}, Nothing{}, unit, meaning, {}, {}};
+}
+
 /// A key whose value is a table, a reference, a path, or one of several of them.
 inline Key structured(std::string_view name, std::vector<ValueForm> forms, std::string_view meaning) {
   return {name, std::move(forms), Nothing{}, "", meaning, {}, {}};

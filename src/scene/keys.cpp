@@ -45,7 +45,12 @@ const KeyTable* find_table(std::string_view name) {
 }
 
 const KeyTable* find_variant(const KeyTable& table, std::string_view choice) {
-  return find_table(std::string(table.name) + "." + std::string(choice));
+  const std::string_view owner = table.variants_of.empty() ? table.name : table.variants_of;
+  return find_table(std::string(owner) + "." + std::string(choice));
+}
+
+std::string_view choice_of(const KeyTable& variant) {
+  return variant.name.substr(variant.name.rfind('.') + 1);
 }
 
 const Key* find_key(const KeyTable& table, std::string_view name) {

@@ -83,6 +83,30 @@ KeyTable spectrum() {
           ""};
 }
 
+// What an object and a part of one have in common. `centre`: what their position is.
+void add_shape_keys(std::vector<Key>& keys, std::string_view centre, std::string_view material) {
+  keys.push_back({"shape",
+                  {{ValueKind::choice}},
+                  Required{},
+                  "",
+                  "Which surface; its own keys are in the tables below.",
+                  {},
+                  {"sphere", "box", "cylinder", "cone", "torus", "disk", "plane", "quadric", "union",
+                   "intersection", "difference"}});
+  keys.push_back(numbers("position", 3, std::vector<double>{0, 0, 0}, "length", centre));
+  keys.push_back(numbers("rotate", 3, std::vector<double>{0, 0, 0}, "degrees",
+                         "Turned about the x axis, then about y, then about z (fixed axes)."));
+  keys.push_back({"scale",
+                  {{ValueKind::number}, {ValueKind::numbers, 3}},
+                  1.0,
+                  "",
+                  "Stretched along its own axes before it is turned: a number or `[x, y, z]`, not zero.",
+                  {},
+                  {}});
+  keys.push_back(structured(
+      "material", {{ValueKind::reference, 0, "material"}, {ValueKind::table, 0, "material"}}, material));
+}
+
 KeyTable object() {
   KeyTable table{
       "object",
@@ -92,30 +116,28 @@ KeyTable object() {
       "at and which passes `position` at world time 0. Sizes are always rest-frame sizes. Surfaces are "
       "two-sided.",
       {text("name",
-            "For error messages, `-D object.NAME.key=value` and the list that `backlight check` gives."),
-       {"shape",
-        {{ValueKind::choice}},
-        Required{},
-        "",
-        "Which surface; its own keys are in the tables below.",
-        {},
-        {"sphere", "box", "cylinder", "cone", "torus", "disk", "plane", "quadric"}},
-       numbers("position", 3, std::vector<double>{0, 0, 0}, "length", "Where its centre is."),
-       numbers("rotate", 3, std::vector<double>{0, 0, 0}, "degrees",
-               "Turned about the x axis, then about y, then about z (the frame's axes)."),
-       {"scale",
-        {{ValueKind::number}, {ValueKind::numbers, 3}},
-        1.0,
-        "",
-        "Stretched along its own axes before it is turned: a number or `[x, y, z]`, not zero.",
-        {},
-        {}},
-       structured("material", {{ValueKind::reference, 0, "material"}, {ValueKind::table, 0, "material"}},
-                  "The name of a `[material.NAME]`, or its keys; without it, a grey of reflectance 0.8."),
-       structured("repeat", {{ValueKind::table, 0, "object.repeat"}},
-                  "Copies of it, all at rest in the same frame and of the same `objectId`.")},
+            "For error messages, `-D object.NAME.key=value` and the list that `backlight check` gives.")},
       "shape"};
+  add_shape_keys(table.keys, "Where its centre is.",
+                 "The name of a `[material.NAME]`, or its keys; without it, a grey of reflectance 0.8.");
+  table.keys.push_back(structured("repeat", {{ValueKind::table, 0, "object.repeat"}},
+                                  "Copies of it, all at rest in the same frame and of the same `objectId`."));
   add_motion_or_frame(table.keys);
+  return table;
+}
+
+KeyTable part() {
+  KeyTable table{
+      "object.part",
+      "[[object.part]]",
+      "A solid that another is made of: any shape that encloses something (all but the disk), or a "
+      "union, intersection or difference again, whose parts are `[[object.part.part]]`. It moves with "
+      "its object.",
+      {text("name", "For error messages and `-D object.NAME.part.PART.key=value`.")},
+      "shape",
+      "object"};
+  add_shape_keys(table.keys, "Where its centre is, in the coordinates of what it is part of.",
+                 "As an object's; without it, the material of what it is part of.");
   return table;
 }
 
@@ -169,6 +191,22 @@ std::vector<KeyTable> shapes() {
         "the "
         "plane's.",
         {numbers("coefficients", 10, Required{}, "", "c0 to c9.")});
+  const auto solid = [&](std::string_view name, std::string_view meaning) {
+    shape(name, meaning,
+          {structured("part", {{ValueKind::tables, 0, "object.part"}}, "What it is made of, at least one.")});
+    tables.back().keys.front().value = Required{};
+  };
+  solid("object.union",
+        "All parts together. Faces of two parts that coincide (to within their rounding errors) count once: "
+        "solids that touch have no wall between them, and where both end the first part in the file gives "
+        "material and texture. A part that is a plane is the half-space below it (y < 0 in its own "
+        "coordinates), and a quadric is solid where its formula is negative. Texture coordinates are the "
+        "part's own.");
+  solid("object.intersection",
+        "What all parts have in common. Solids that only touch have nothing in common.");
+  solid("object.difference",
+        "The first part without all others, which leave walls with their own materials. A part that ends "
+        "flush with the first leaves no skin.");
   return tables;
 }
 
@@ -177,6 +215,7 @@ std::vector<KeyTable> shapes() {
 std::vector<KeyTable> matter_tables() {
   std::vector<KeyTable> tables{frame(), material(), checker(), spectrum(), object()};
   for (KeyTable& shape : shapes()) tables.push_back(std::move(shape));
+  tables.push_back(part());
   tables.push_back(repeat());
   return tables;
 }

@@ -139,7 +139,7 @@ class Override {
   // From a table to the value of one of its keys, making missing tables; false when that is not possible.
   bool enter(Spot& spot, const Segment& segment) {
     if (spot.kind != ValueKind::table) return enter_element(spot, segment);
-    const Key* key = find_key(*spot.keys, segment.name);
+    const Key* key = find_key_of(spot, segment.name);
     if (key == nullptr) {
       unknown(spot, segment);
       return false;
@@ -165,6 +165,16 @@ class Override {
     const KeyTable* keys = find_table(table->table);
     spot = {&entry->node, keys, kind, keys != nullptr ? std::string(keys->heading) : segment.name};
     return true;
+  }
+
+  // A key of the table, or of the variant that its selector chooses.
+  static const Key* find_key_of(const Spot& spot, const std::string& name) {
+    const Key* key = find_key(*spot.keys, name);
+    if (key != nullptr || spot.keys->selector.empty()) return key;
+    const Entry* choice = find(*spot.node, spot.keys->selector);
+    if (choice == nullptr || choice->node.text() == nullptr) return nullptr;
+    const KeyTable* variant = find_variant(*spot.keys, *choice->node.text());
+    return variant != nullptr ? find_key(*variant, name) : nullptr;
   }
 
   // From a list or a table of named tables to one of them.

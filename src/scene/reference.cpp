@@ -48,6 +48,12 @@ std::string kind_of(const Key& key) {
       case ValueKind::colours:
         kinds.push_back(std::to_string(form.count) + " colors");
         break;
+      case ValueKind::points:
+        kinds.push_back(std::to_string(form.count) + " points");
+        break;
+      case ValueKind::formula:
+        kinds.emplace_back("formula");
+        break;
       case ValueKind::choice:
       case ValueKind::text:
         kinds.emplace_back("string");

@@ -61,7 +61,18 @@ class References {
     for (Node& node : *entries->node.array()) {
       refer(node, "frame", frames_);
       refer(node, "material", materials_);
+      check_parts(node);
       check_name(node, list, names, entries->node.array()->size());
+    }
+  }
+
+  // The parts of a solid name materials too.
+  void check_parts(Node& node) {
+    Entry* parts = find(node, "part");
+    if (parts == nullptr || parts->node.array() == nullptr) return;
+    for (Node& part : *parts->node.array()) {
+      refer(part, "material", materials_);
+      check_parts(part);
     }
   }
 

@@ -62,11 +62,13 @@ Json form_schema(const Key& key, const ValueForm& form) {
     case ValueKind::numbers:
       return array_of(number_schema(key.range), form.count);
     case ValueKind::colours:
+    case ValueKind::points:
       return array_of(array_of(number_schema(key.range), 3), form.count);
     case ValueKind::choice:
       return std::move(Json::object().add("enum", Json::array(texts(key.choices))));
     case ValueKind::choices:
       return list_of(std::move(Json::object().add("enum", Json::array(texts(key.choices)))));
+    case ValueKind::formula:
     case ValueKind::text:
     case ValueKind::path:
     case ValueKind::reference:

@@ -10,11 +10,13 @@ bool matches(const ValueForm& form, const Node& node) {
       return std::holds_alternative<double>(node.value) || node.text() != nullptr;
     case ValueKind::numbers:
     case ValueKind::colours:
+    case ValueKind::points:
     case ValueKind::choices:
     case ValueKind::paths:
     case ValueKind::tables:
       return node.array() != nullptr;
     case ValueKind::text:
+    case ValueKind::formula:
     case ValueKind::choice:
     case ValueKind::path:
     case ValueKind::reference:
@@ -38,6 +40,10 @@ std::string form_words(const ValueForm& form) {
                              : "an array of " + std::to_string(form.count) + " numbers";
     case ValueKind::colours:
       return "an array of " + std::to_string(form.count) + " colors";
+    case ValueKind::points:
+      return "an array of " + std::to_string(form.count) + " points";
+    case ValueKind::formula:
+      return "a formula in a string";
     case ValueKind::text:
     case ValueKind::choice:
       return "a string";

@@ -79,4 +79,9 @@ struct Description {
   [[nodiscard]] SourceSpan span(const Place& place) const;
 };
 
+/// The formula of a surface may use x, y and z besides the variables of every expression: they come first.
+/// `t` is then the object's own time.
+inline constexpr std::size_t formula_coordinates = 3;
+std::vector<std::string> formula_variables(const Description& description);
+
 }  // namespace backlight

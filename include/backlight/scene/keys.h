@@ -15,6 +15,8 @@ enum class ValueKind {
   number,        ///< or an expression in a string
   numbers,       ///< an array of `count` numbers; any length (but zero) when count is 0
   colours,       ///< an array of `count` arrays of three numbers
+  points,        ///< the same, of coordinates
+  formula,       ///< an expression of x, y, z and what every expression may use, in a string
   text,          ///< any string
   choice,        ///< one of the key's `choices`
   choices,       ///< an array of them
@@ -69,13 +71,14 @@ struct Key {
 /// The keys of one kind of table.
 ///
 /// Where `selector` is not empty, it names the key that chooses a variant ("shape", "type"): the table then
-/// has the keys of the table `name.CHOICE` besides.
+/// has the keys of the table `name.CHOICE` besides, or of `variants_of.CHOICE` where that is not empty.
 struct KeyTable {
   std::string_view name;
   std::string_view heading;  ///< how it is written in a file: "[camera]"
   std::string_view meaning;
   std::vector<Key> keys;
   std::string_view selector;
+  std::string_view variants_of = {};
 };
 
 /// All tables, in the order of the reference page. "" is the top of a file.
@@ -86,6 +89,9 @@ const KeyTable* find_table(std::string_view name);
 
 /// The table of a table's variant, such as the keys of a sphere; null when there is none of this name.
 const KeyTable* find_variant(const KeyTable& table, std::string_view choice);
+
+/// The last word of a table's name: of a variant, the choice that it belongs to.
+std::string_view choice_of(const KeyTable& variant);
 
 /// The key of this name, or null.
 const Key* find_key(const KeyTable& table, std::string_view name);

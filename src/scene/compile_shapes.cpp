@@ -1,0 +1,146 @@
+#include "compile_shapes.h"
+
+#include <algorithm>
+#include <array>
+
+namespace backlight {
+namespace {
+
+Shape read_quadric(const TableView& table) {
+  const std::vector<double> written = table.numbers("coefficients");
+  std::array<double, 10> coefficients{};
+  std::copy(written.begin(), written.end(), coefficients.begin());
+  return quadric(coefficients);
+}
+
+// The closed forms: their names in a file, and how their keys become a shape.
+struct ClosedForm {
+  std::string_view name;
+  Shape (*read)(const TableView&);
+};
+
+constexpr std::array<ClosedForm, 8> closed_forms{{
+    {"sphere", [](const TableView& t) { return sphere(t.number("radius")); }},
+    {"box", [](const TableView& t) { return box(t.vector("size")); }},
+    {"cylinder", [](const TableView& t) { return cylinder(t.number("radius"), t.number("height")); }},
+    {"cone",
+     [](const TableView& t) { return cone(t.number("radius"), t.number("top_radius"), t.number("height")); }},
+    {"torus", [](const TableView& t) { return torus(t.number("major"), t.number("minor")); }},
+    {"disk", [](const TableView& t) { return disk(t.number("radius")); }},
+    {"plane", [](const TableView&) { return plane(); }},
+    {"quadric", read_quadric},
+}};
+
+std::optional<SolidOperation> operation_of(const std::string& shape) {
+  if (shape == "union") return SolidOperation::unite;
+  if (shape == "intersection") return SolidOperation::intersect;
+  if (shape == "difference") return SolidOperation::difference;
+  return std::nullopt;
+}
+
+class ShapeReader {
+ public:
+  ShapeReader(Compilation& c, Materials& materials) : c_(c), materials_(materials) {}
+
+  std::optional<CompiledShape> object(const TableView& table, int material) {
+    if (!table.complete()) return std::nullopt;
+    const auto operation = operation_of(table.text("shape"));
+    if (!operation) {
+      auto shape = single(table);
+      if (!shape) return std::nullopt;
+      return CompiledShape{*std::move(shape), {}};
+    }
+    SolidTree tree;
+    tree.operation = *operation;
+    if (!parts(table, material, 1, tree)) return std::nullopt;
+    return CompiledShape{csg(tree), members_};
+  }
+
+ private:
+  // A shape that is not made of others.
+  std::optional<Shape> single(const TableView& table) {
+    const std::size_t errors = c_.values.diagnostics.error_count();
+    const std::string name = table.text("shape");
+    const auto* form = std::find_if(closed_forms.begin(), closed_forms.end(),
+                                    [&](const ClosedForm& candidate) { return candidate.name == name; });
+    if (form == closed_forms.end()) return std::nullopt;
+    const Shape shape = form->read(table);
+    if (c_.values.diagnostics.error_count() > errors) return std::nullopt;
+    if (const std::string wrong = problem(shape); !wrong.empty()) {
+      table.error("shape", wrong);
+      return std::nullopt;
+    }
+    return shape;
+  }
+
+  // All parts, so that what is wrong with any of them is reported; false if something is.
+  bool parts(const TableView& table, int material, int depth, SolidTree& tree) {
+    const Node* written = table.node_of("part");
+    if (depth > deepest_solid) {
+      table.error("part", "solids are nested deeper than " + std::to_string(deepest_solid) + " operations");
+      return false;
+    }
+    if (written == nullptr || written->array() == nullptr || written->array()->empty()) return false;
+    bool good = true;
+    for (const Node& node : *written->array()) {
+      auto part = one_part(TableView(c_.values, &node, *find_table("object.part")), material, depth);
+      if (part) {
+        tree.parts.push_back(*std::move(part));
+      } else {
+        good = false;
+      }
+    }
+    return good;
+  }
+
+  std::optional<SolidTree> one_part(const TableView& table, int inherited, int depth) {
+    const std::size_t errors = c_.values.diagnostics.error_count();
+    const int material = table.has("material") ? materials_.of(table) : inherited;
+    SolidTree tree;
+    tree.placement = Placement(table.vector("position"), table.vector("rotate"), read_scale(table));
+    if (!table.complete()) return std::nullopt;
+    if (const std::string wrong = problem(tree.placement); !wrong.empty()) {
+      table.error(table.has("scale") ? "scale" : "position", wrong);
+    }
+    if (const auto operation = operation_of(table.text("shape"))) {
+      tree.operation = *operation;
+      if (!parts(table, material, depth + 1, tree)) return std::nullopt;
+    } else {
+      auto shape = single(table);
+      if (!shape) return std::nullopt;
+      tree.shape = *std::move(shape);
+      tree.member = member(material);
+      if (!is_solid(tree.shape)) {
+        table.error("shape", problem(tree), "a cylinder of little height has an inside");
+      }
+    }
+    if (c_.values.diagnostics.error_count() > errors) return std::nullopt;
+    return tree;
+  }
+
+  int member(int material) {
+    const auto there = std::find(members_.begin(), members_.end(), material);
+    const auto index = static_cast<int>(there - members_.begin());
+    if (there == members_.end()) members_.push_back(material);
+    return index;
+  }
+
+  Compilation& c_;
+  Materials& materials_;
+  std::vector<int> members_;
+};
+
+}  // namespace
+
+Vec3 read_scale(const TableView& table) {
+  const Node* written = table.node_of("scale");
+  return written != nullptr && written->array() != nullptr ? table.vector("scale")
+                                                           : Vec3{table.number("scale")};
+}
+
+std::optional<CompiledShape> compile_shape(Compilation& c, const TableView& object, Materials& materials,
+                                           int material) {
+  return ShapeReader(c, materials).object(object, material);
+}
+
+}  // namespace backlight

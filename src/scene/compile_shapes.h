@@ -1,0 +1,26 @@
+// The shapes of objects, and of the parts of which solids are made.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "backlight/surface/solid.h"
+#include "compile_parts.h"
+
+namespace backlight {
+
+/// A surface, and the materials of its members where it has more than one.
+struct CompiledShape {
+  Shape shape;
+  std::vector<int> member_materials;  ///< by SurfacePoint::member; empty: that of the object
+};
+
+/// The shape of an object whose own material is `material`; nothing when something is wrong with it, which
+/// has then been reported.
+std::optional<CompiledShape> compile_shape(Compilation& c, const TableView& object, Materials& materials,
+                                           int material);
+
+/// `position`, `rotate` and `scale`.
+Vec3 read_scale(const TableView& table);
+
+}  // namespace backlight
