@@ -15,7 +15,7 @@
 namespace backlight {
 namespace {
 
-constexpr std::array command_names{"render", "check", "view", "info", "assemble", "schema"};
+constexpr std::array command_names{"render", "check", "compare", "view", "info", "assemble", "schema"};
 
 // Help that reads like a manual page: names, value and meaning in columns, wrapped at 100 characters.
 class HelpFormatter : public CLI::Formatter {
@@ -272,6 +272,89 @@ std::vector<std::filesystem::path> image_files(const std::vector<std::string>& f
   return {files.begin(), files.end()};
 }
 
+void add_threshold(CLI::App& app, const char* name, const char* value, const char* help, double& threshold,
+                   const char* group) {
+  add_value(app, name, value, help, parse_threshold, [&threshold](double given) {
+    threshold = given;
+  })->group(group);
+}
+
+void add_thresholds(CLI::App& app, CompareLimits& limits) {
+  const char* fail = "Different (the rules are idiff's)";
+  add_threshold(app, "--fail", "VAL", "a value may differ by so much; default 1e-6", limits.fail, fail);
+  add_threshold(app, "--failrelative", "VAL", "or by this share of the two values' mean; default 0",
+                limits.fail_relative, fail);
+  add_threshold(app, "--failpercent", "PERCENT", "so many of the pixels may differ by more; default 0",
+                limits.fail_percent, fail);
+  add_value(app, "--allowfailures", "N", "or this number of them, by any amount; default 0",
+            whole(0, std::int64_t{1} << 52),
+            [&limits](std::int64_t count) { limits.allow_failures = static_cast<std::uint64_t>(count); })
+      ->group(fail);
+  add_threshold(app, "--hardfail", "VAL", "but no value by more than this; default inf", limits.hard_fail,
+                fail);
+  add_value(app, "--tolerance", "CHANNEL=VAL",
+            "a --fail of its own for a channel or a layer, as in --tolerance Z=1e-3; may be repeated",
+            parse_tolerance,
+            [&limits](std::pair<std::string, double> one) { limits.tolerances.push_back(std::move(one)); })
+      ->group(fail)
+      ->take_all()
+      ->trigger_on_parse();
+  add_value(app, "--channels", "LIST", "compare only these channels or layers, with commas between",
+            parse_list,
+            [&limits](std::vector<std::string> channels) { limits.channels = std::move(channels); })
+      ->group(fail);
+  const char* warn = "Worth a warning; the exit status stays 0";
+  add_threshold(app, "--warn", "VAL", "as --fail", limits.warn, warn);
+  add_threshold(app, "--warnrelative", "VAL", "as --failrelative", limits.warn_relative, warn);
+  add_threshold(app, "--warnpercent", "PERCENT", "as --failpercent", limits.warn_percent, warn);
+  add_threshold(app, "--hardwarn", "VAL", "as --hardfail", limits.hard_warn, warn);
+}
+
+Parser compare_parser() {
+  struct State {
+    CompareOptions options;
+    std::vector<std::string> paths;
+    bool quiet = false;
+    bool verbose = false;
+  };
+  const auto state = std::make_shared<State>();
+  Parser parser{
+      make_app("compare",
+               "Tell whether images are equal to their references, channel by channel. Two folders "
+               "are compared image by image.\nExit status: 0 equal, 1 different, 2 something "
+               "could not be compared.",
+               "compare REF.exr NEW.exr [options]\n       backlight compare REFDIR NEWDIR [options]"),
+      {}};
+  CLI::App& app = *parser.app;
+  app.add_option("IMAGE.exr", state->paths);
+  add_value(
+      app, "--html", "FILE.html",
+      "write a report: one page that needs nothing else, with both pictures, where they differ, and how "
+      "to render the worst pixel again",
+      parse_text, [state](std::string file) { state->options.html = file; })
+      ->group("What to do");
+  add_flag(app, "--update", state->options.update,
+           "put new images in the places of the references that they differ from, and print which")
+      ->group("What to do");
+  add_thresholds(app, state->options.limits);
+  add_verbosity(app, state->quiet, &state->verbose);
+  parser.finish = [state]() -> Command {
+    CompareOptions options = state->options;
+    if (state->paths.size() < 2) {
+      throw CLI::ValidationError("", "two images or two folders are needed: the reference and the new one");
+    }
+    if (state->paths.size() > 2)
+      throw CLI::ValidationError("", "only two paths are compared; a third is '" + state->paths[2] + "'");
+    if (state->quiet && state->verbose) throw CLI::ValidationError("--quiet", "not together with --verbose");
+    options.reference = state->paths[0];
+    options.now = state->paths[1];
+    if (state->quiet) options.verbosity = Verbosity::quiet;
+    if (state->verbose) options.verbosity = Verbosity::verbose;
+    return options;
+  };
+  return parser;
+}
+
 Parser view_parser() {
   struct State {
     ViewOptions options;
@@ -359,6 +442,7 @@ Parser assemble_parser() {
 
 Parser parser_of(const std::string& name) {
   if (name == "check") return check_parser();
+  if (name == "compare") return compare_parser();
   if (name == "view") return view_parser();
   if (name == "info") return info_parser();
   if (name == "assemble") return assemble_parser();

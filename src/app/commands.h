@@ -7,6 +7,7 @@ namespace backlight {
 
 int run(const RenderOptions& options);
 int run(const CheckOptions& options);
+int run(const CompareOptions& options);
 int run(const SchemaOptions& options);
 int run(const ViewOptions& options);
 int run(const InfoOptions& options);

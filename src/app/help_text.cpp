@@ -15,6 +15,7 @@ Usage: backlight [render] SCENE.toml [options]
 Commands:
   render SCENE.toml   trace the images of a scene into OpenEXR files (the default)
   check  SCENE.toml   look for mistakes in a scene and explain what it needs; renders nothing
+  compare REF NEW     tell whether images are equal, and where and by how much not; HTML report
   view   IMAGE.exr    make a PNG to look at: exposure, tone curve, sRGB; contact sheets
   info   IMAGE.exr    tell what made an image
   assemble PART.exr   put an image together that was rendered in parts with --crop
@@ -23,7 +24,7 @@ Commands:
 'backlight COMMAND --help' lists the options of a command; 'backlight --version' prints the version.
 
 Exit status: 0 all images written; 1 an image failed; 2 the command line is wrong; 3 the scene is wrong;
-4 a file cannot be read or written; 128+n stopped by signal n.
+4 a file cannot be read or written; 128+n stopped by signal n. compare: 0 equal; 1 differs; 2 trouble.
 )";
 }
 

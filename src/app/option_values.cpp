@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <system_error>
 
@@ -68,6 +69,23 @@ Result<double> parse_number(std::string_view text) {
   const auto value = number_text<double>(text);
   if (!value || !std::isfinite(*value)) return Failure{"expected a number, not " + quoted(text)};
   return *value;
+}
+
+Result<double> parse_threshold(std::string_view text) {
+  if (text == "inf") return std::numeric_limits<double>::infinity();
+  const auto value = number_text<double>(text);
+  if (!value || !(*value >= 0.0)) return Failure{"expected a number of at least 0, not " + quoted(text)};
+  return *value;
+}
+
+Result<std::pair<std::string, double>> parse_tolerance(std::string_view text) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == 0 || equals == std::string_view::npos) {
+    return Failure{"expected channel=number, such as Z=1e-6, not " + quoted(text)};
+  }
+  const auto value = parse_threshold(text.substr(equals + 1));
+  if (!value.ok()) return value.failure();
+  return std::pair(std::string(text.substr(0, equals)), value.value());
 }
 
 Result<std::string> parse_text(std::string_view text) {

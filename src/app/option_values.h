@@ -24,6 +24,12 @@ Result<std::int64_t> parse_whole(std::string_view text, std::int64_t least, std:
 /// A finite number.
 Result<double> parse_number(std::string_view text);
 
+/// A number of at least 0; "inf" for none.
+Result<double> parse_threshold(std::string_view text);
+
+/// "NAME=0.01": a channel or layer, and a number of at least 0.
+Result<std::pair<std::string, double>> parse_tolerance(std::string_view text);
+
 /// Any text but an empty one.
 Result<std::string> parse_text(std::string_view text);
 

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "backlight/film/compare.h"
 #include "backlight/film/display.h"
 #include "backlight/film/exr.h"
 #include "backlight/film/image.h"
@@ -51,6 +52,15 @@ struct SchemaOptions {
   bool markdown = false;  ///< the reference page instead
 };
 
+struct CompareOptions {
+  std::filesystem::path reference;  ///< file or folder
+  std::filesystem::path now;        ///< the same
+  CompareLimits limits;
+  std::filesystem::path html;  ///< report to write; empty: none
+  bool update = false;         ///< the new images take the places of references that they differ from
+  Verbosity verbosity = Verbosity::normal;
+};
+
 struct ViewOptions {
   std::vector<std::filesystem::path> files;  ///< several make a contact sheet
   std::filesystem::path output;              ///< empty: the file's name with .png
@@ -76,8 +86,8 @@ struct Answer {
   bool usage_error = false;
 };
 
-using Command = std::variant<Answer, RenderOptions, CheckOptions, SchemaOptions, ViewOptions, InfoOptions,
-                             AssembleOptions>;
+using Command = std::variant<Answer, RenderOptions, CheckOptions, SchemaOptions, CompareOptions, ViewOptions,
+                             InfoOptions, AssembleOptions>;
 
 /// Reads the arguments after the program's name.
 Command parse_command_line(const std::vector<std::string>& arguments);

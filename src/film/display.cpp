@@ -52,6 +52,11 @@ double curve(ToneCurve tone, double value, double white) {
   if (tone == ToneCurve::reinhard) {
     return value * (1.0 + value / (white * white)) / (1.0 + value);
   }
+  if (tone == ToneCurve::drago) {
+    const double bias = std::log(0.85) / std::log(0.5);
+    const double base = 2.0 + 8.0 * std::pow(value / white, bias);
+    return std::log1p(value) / std::log(base) / std::log10(1.0 + white);
+  }
   return std::log1p(value) / std::log1p(white);
 }
 
@@ -94,8 +99,7 @@ Vec3 DisplayTransform::apply(const Vec3& film) const {
   return within_white(rgb * (after / before), after);
 }
 
-Result<DisplayedImage> display_image(const Image& image, const DisplayTransform& transform,
-                                     std::size_t view) {
+Result<std::array<std::size_t, 3>> colour_channels(const Image& image, std::size_t view) {
   const std::vector<std::string>& views = image.layout().views;
   if (view > 0 && view >= views.size()) {
     return Failure{"the picture has no view number " + std::to_string(view)};
@@ -109,6 +113,16 @@ Result<DisplayedImage> display_image(const Image& image, const DisplayTransform&
     }
     channels[c] = static_cast<std::size_t>(found);
   }
+  return channels;
+}
+
+Result<DisplayedImage> display_image(const Image& image, const DisplayTransform& transform,
+                                     std::size_t view) {
+  const auto found = colour_channels(image, view);
+  if (!found.ok()) {
+    return found.failure();
+  }
+  const std::array<std::size_t, 3>& channels = found.value();
   DisplayedImage displayed{{image.layout().data.width(), image.layout().data.height(), 3, {}}, {}};
   const double gain = std::exp2(transform.exposure_stops);
   const std::size_t count = image.plane(channels[0]).size();

@@ -47,6 +47,8 @@ Result<ImageModule> ImageModule::load() {
     ImageModule module;
     if (!find(library, "backlight_oiio_load_v1", module.load_) ||
         !find(library, "backlight_oiio_encode_png_v1", module.encode_png_) ||
+        !find(library, "backlight_oiio_colour_map_v1", module.colour_map_) ||
+        !find(library, "backlight_oiio_base64_v1", module.base64_) ||
         !find(library, "backlight_oiio_free_v1", module.free_)) {
       return Failure{"the module for textures and PNG, " + place.string() + ", is of another version"};
     }
@@ -93,6 +95,26 @@ Result<std::string> ImageModule::encode_png(const void* samples, int width, int 
   std::string bytes(reinterpret_cast<const char*>(png.data), png.size);
   free_(png.data);
   return bytes;
+}
+
+Result<void> ImageModule::colour_map(const float* values, int width, int height, const char* map,
+                                     unsigned char* rgb) const {
+  std::array<char, 512> text{};
+  if (colour_map_(values, width, height, map, rgb, text.data(), text.size()) != 0) {
+    return Failure{std::string("cannot colour a picture: ") + text.data()};
+  }
+  return {};
+}
+
+Result<std::string> ImageModule::base64(const std::string& bytes) const {
+  BacklightOiioBytes encoded{};
+  std::array<char, 512> text{};
+  if (base64_(bytes.data(), bytes.size(), &encoded, text.data(), text.size()) != 0) {
+    return Failure{std::string("cannot encode a picture: ") + text.data()};
+  }
+  std::string result(reinterpret_cast<const char*>(encoded.data), encoded.size);
+  free_(encoded.data);
+  return result;
 }
 
 }  // namespace backlight

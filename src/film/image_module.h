@@ -35,10 +35,18 @@ class ImageModule {
   [[nodiscard]] Result<std::string> encode_png(const void* samples, int width, int height, int channels,
                                                int sample_bits) const;
 
+  /// `values` (width * height of them, 0..1) as the colours of a map of OpenImageIO's, 3 bytes each.
+  [[nodiscard]] Result<void> colour_map(const float* values, int width, int height, const char* map,
+                                        unsigned char* rgb) const;
+
+  [[nodiscard]] Result<std::string> base64(const std::string& bytes) const;
+
  private:
   ImageModule() = default;
   BacklightOiioLoad load_ = nullptr;
   BacklightOiioEncodePng encode_png_ = nullptr;
+  BacklightOiioColourMap colour_map_ = nullptr;
+  BacklightOiioBase64 base64_ = nullptr;
   BacklightOiioFree free_ = nullptr;
 };
 

@@ -5,6 +5,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -150,6 +151,23 @@ void encode_png(const void* samples, int width, int height, int channels, int sa
   png.data = data.release();
 }
 
+void colour_map(const float* values, int width, int height, const char* map, unsigned char* rgb) {
+  // Only read: ImageBuf has no constructor for constant memory.
+  OIIO::ImageBuf source(OIIO::ImageSpec(width, height, 1, OIIO::TypeDesc::FLOAT), const_cast<float*>(values));
+  const OIIO::ImageBuf colours = OIIO::ImageBufAlgo::color_map(source, 0, map);
+  if (colours.has_error() || !colours.get_pixels(colours.roi(), OIIO::TypeDesc::UINT8, rgb)) {
+    raise(colours.geterror(), "the colours cannot be mapped");
+  }
+}
+
+void base64(const char* data, std::size_t size, BacklightOiioBytes& bytes) {
+  const std::string text = OIIO::Strutil::base64_encode({data, size});
+  Memory<unsigned char> copy = allocate<unsigned char>(text.size());
+  std::copy(text.begin(), text.end(), copy.get());
+  bytes.size = text.size();
+  bytes.data = copy.release();
+}
+
 }  // namespace
 
 int backlight_oiio_load_v1(const char* path, BacklightOiioImage* image, char* error, std::size_t error_size) {
@@ -159,6 +177,16 @@ int backlight_oiio_load_v1(const char* path, BacklightOiioImage* image, char* er
 int backlight_oiio_encode_png_v1(const void* samples, int width, int height, int channels, int sample_bits,
                                  BacklightOiioBytes* png, char* error, std::size_t error_size) {
   return guarded(error, error_size, [&] { encode_png(samples, width, height, channels, sample_bits, *png); });
+}
+
+int backlight_oiio_colour_map_v1(const float* values, int width, int height, const char* map,
+                                 unsigned char* rgb, char* error, std::size_t error_size) {
+  return guarded(error, error_size, [&] { colour_map(values, width, height, map, rgb); });
+}
+
+int backlight_oiio_base64_v1(const char* data, std::size_t size, BacklightOiioBytes* text, char* error,
+                             std::size_t error_size) {
+  return guarded(error, error_size, [&] { base64(data, size, *text); });
 }
 
 void backlight_oiio_free_v1(void* memory) {

@@ -34,10 +34,22 @@ BACKLIGHT_OIIO_EXPORT int backlight_oiio_encode_png_v1(const void* samples, int 
                                                        int channels, int sample_bits, BacklightOiioBytes* png,
                                                        char* error, std::size_t error_size);
 
+/// `values`: width * height numbers 0..1. `map`: one of OpenImageIO's color_map. `rgb`: 3 bytes a value.
+BACKLIGHT_OIIO_EXPORT int backlight_oiio_colour_map_v1(const float* values, int width, int height,
+                                                       const char* map, unsigned char* rgb, char* error,
+                                                       std::size_t error_size);
+
+/// RFC 4648 base64 of `size` bytes.
+BACKLIGHT_OIIO_EXPORT int backlight_oiio_base64_v1(const char* data, std::size_t size,
+                                                   BacklightOiioBytes* text, char* error,
+                                                   std::size_t error_size);
+
 BACKLIGHT_OIIO_EXPORT void backlight_oiio_free_v1(void* memory);
 }
 
 // As the loader casts what dlsym finds.
 using BacklightOiioLoad = decltype(&backlight_oiio_load_v1);
 using BacklightOiioEncodePng = decltype(&backlight_oiio_encode_png_v1);
+using BacklightOiioColourMap = decltype(&backlight_oiio_colour_map_v1);
+using BacklightOiioBase64 = decltype(&backlight_oiio_base64_v1);
 using BacklightOiioFree = decltype(&backlight_oiio_free_v1);

@@ -59,7 +59,7 @@ TEST_F(Usage, HelpFitsTheTerminalAndNamesEveryOption) {
 
 TEST_F(Usage, HelpPromisesNothingThatIsNotThere) {
   const std::string all = run({"--help"}).out + run({"render", "--help"}).out;
-  for (const char* option : {"compare", "--skip-existing", "--no-clobber", "--resume", "--claim"}) {
+  for (const char* option : {"--skip-existing", "--no-clobber", "--resume", "--claim"}) {
     EXPECT_EQ(all.find(option), std::string::npos) << option;
   }
 }

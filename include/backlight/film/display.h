@@ -1,6 +1,7 @@
 // From film values to what a screen shows.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "backlight/base/result.h"
@@ -25,7 +26,12 @@ enum class ToneCurve {
   /// ln(1 + L) / ln(1 + white): equal ratios of bright luminances become equal steps, 1 at L = white (the
   /// logarithmic mapping that Drago et al. 2003, "Adaptive Logarithmic Mapping For Displaying High Contrast
   /// Scenes", start from, equation 1).
-  logarithmic
+  logarithmic,
+  /// ln(1 + L) / ln(2 + 8 (L / white)^k) / lg(1 + white), k = ln(0.85) / ln(0.5), 1 at L = white: the
+  /// adaptive
+  /// mapping itself (equation 4 of that paper, bias 0.85). A logarithm to base 2 where dark, to base 10 where
+  /// bright, it keeps contrast at both ends of a range of many powers of ten, such as D^4 gives.
+  drago
 };
 
 /// Film values (linear Rec.709) to display values. The default shows a film value of 1 as the screen's white
@@ -55,6 +61,9 @@ struct DisplayedImage {
   PixelBytes pixels;  ///< RGB, of the data window
   DisplayReport report;
 };
+
+/// The numbers of the channels R, G and B of view number `view`. Fails if the picture has not all of them.
+Result<std::array<std::size_t, 3>> colour_channels(const Image& image, std::size_t view);
 
 /// The colour of view number `view` as 8-bit sRGB, rounded to nearest. Alpha is not looked at: where it is 0
 /// the film is black. NaN is shown magenta. Fails if the picture has no R, G and B in that view.

@@ -46,8 +46,16 @@ TEST(DisplayTransform, CurvesFollowTheirFormulas) {
   }
 }
 
+TEST(DisplayTransform, DragosCurveHasTheValuesOfItsFormula) {
+  // Decimal arithmetic, 30 digits: log(1 + L) / log(2 + 8 (L/W)**(log(0.85)/log(0.5))) / log10(1 + W).
+  const DisplayTransform transform{.tone = ToneCurve::drago, .white = 1e6};
+  EXPECT_NEAR(transform.apply(Vec3{1.0}).g, 0.1377291393670483910927, 1e-14);
+  EXPECT_NEAR(transform.apply(Vec3{1000.0}).g, 0.9021022303832106906215, 1e-14);
+  EXPECT_NEAR(transform.apply(Vec3{1e6}).g, 1.0, 1e-14);
+}
+
 TEST(DisplayTransform, CurvesReachWhiteAtWhiteAndRiseOnTheWay) {
-  for (const ToneCurve tone : {ToneCurve::reinhard, ToneCurve::logarithmic}) {
+  for (const ToneCurve tone : {ToneCurve::reinhard, ToneCurve::logarithmic, ToneCurve::drago}) {
     const DisplayTransform transform{.tone = tone, .white = 50.0};
     EXPECT_EQ(transform.apply(Vec3{0.0}), Vec3{0.0});
     EXPECT_NEAR(transform.apply(Vec3{50.0}).r, 1.0, 1e-15);
