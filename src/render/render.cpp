@@ -14,7 +14,13 @@
 namespace backlight {
 namespace {
 
-constexpr int tile_size = 16;
+constexpr int largest_tile = 32;
+constexpr int block_size = 8;  // a sheet of rays is a block's
+
+// Tiles get smaller with the number of samples: a tile is put aside as a whole.
+int tile_size_of(const Scene& scene) {
+  return scene.film.samples <= 16 ? largest_tile : scene.film.samples <= 64 ? 16 : block_size;
+}
 
 PixelBox data_window(const Scene& scene, const RenderSettings& settings) {
   return settings.crop.value_or(PixelBox{0, 0, scene.film.width, scene.film.height});
@@ -22,43 +28,71 @@ PixelBox data_window(const Scene& scene, const RenderSettings& settings) {
 
 struct TileGrid {
   PixelBox window;
+  int size;
   std::size_t columns;
   std::size_t rows;
 
-  explicit TileGrid(const PixelBox& box)
-      : window(box),
-        columns(static_cast<std::size_t>((box.width() + tile_size - 1) / tile_size)),
-        rows(static_cast<std::size_t>((box.height() + tile_size - 1) / tile_size)) {}
+  TileGrid(const Scene& scene, const RenderSettings& settings)
+      : window(data_window(scene, settings)),
+        size(tile_size_of(scene)),
+        columns(static_cast<std::size_t>((window.width() + size - 1) / size)),
+        rows(static_cast<std::size_t>((window.height() + size - 1) / size)) {}
 
   [[nodiscard]] std::size_t count() const { return columns * rows; }
   [[nodiscard]] PixelBox tile(std::size_t index) const {
-    const int x = window.x0 + static_cast<int>(index % columns) * tile_size;
-    const int y = window.y0 + static_cast<int>(index / columns) * tile_size;
-    return {x, y, std::min(x + tile_size, window.x1), std::min(y + tile_size, window.y1)};
+    const int x = window.x0 + static_cast<int>(index % columns) * size;
+    const int y = window.y0 + static_cast<int>(index / columns) * size;
+    return {x, y, std::min(x + size, window.x1), std::min(y + size, window.y1)};
   }
+};
+
+// What one thread works with.
+struct ThreadMemory {
+  explicit ThreadMemory(const Tracer& tracer, const SheetTracer* sheets)
+      : scratch(tracer.make_scratch()), sheet(nullptr, nullptr) {
+    if (sheets != nullptr) sheet = sheets->make_scratch();
+  }
+
+  Scratch scratch;
+  std::unique_ptr<SheetScratch, void (*)(SheetScratch*)> sheet;
+  TileLight light;
+  std::vector<TilePixel> pixels;
+  std::vector<LinearRgb> sums;
+  std::vector<int> covered;
 };
 
 // The pixels of one view: what a tile task needs.
 class ViewRenderer {
  public:
-  ViewRenderer(const Tracer& tracer, const RenderSettings& settings, int eye, PartialImage& partial,
-               std::size_t view)
+  ViewRenderer(const Tracer& tracer, const SheetTracer* sheets, const RenderSettings& settings, int eye,
+               PartialImage& partial, std::size_t view)
       : tracer_(tracer),
+        sheets_(sheets),
         settings_(settings),
         eye_(eye),
         writer_(tracer.scene(), partial.image, view),
         image_(partial.image),
         done_(partial.done[view]) {}
 
-  // Traces what is missing of a tile; gives up between two pixels when `stop` turns true, since a tile of
-  // many samples may take minutes.
-  void tile(const PixelBox& box, const std::atomic<bool>& stop, Scratch& scratch) {
+  // Traces what is missing of a tile; gives up between two pixels, or two samples of the tile, when `stop`
+  // turns true, since a tile of many samples may take minutes.
+  void tile(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& memory) {
+    if (sheets_ != nullptr) {
+      try {
+        tile_in_sheets(box, stop, memory);
+        return;
+      } catch (const std::bad_alloc&) {
+        throw;
+      } catch (const std::exception&) {
+        // One by one, below, it turns out which pixel it was.
+      }
+    }
     for (int y = box.y0; y < box.y1; ++y) {
       for (int x = box.x0; x < box.x1; ++x) {
         std::uint8_t& is_done = done_[image_.offset(x, y)];
         if (is_done != 0) continue;
         if (stop.load(std::memory_order_relaxed)) return;
-        pixel_or_failure(x, y, scratch);
+        pixel_or_failure(x, y, memory.scratch);
         is_done = 1;
       }
     }
@@ -72,6 +106,51 @@ class ViewRenderer {
       throw;
     } catch (const std::exception& error) {
       throw PixelFailure(x, y, error.what());
+    }
+  }
+
+  void list_missing(const PixelBox& box, std::vector<TilePixel>& pixels) const {
+    pixels.clear();
+    for (int top = box.y0; top < box.y1; top += block_size) {
+      for (int left = box.x0; left < box.x1; left += block_size) {
+        for (int y = top; y < std::min(top + block_size, box.y1); ++y) {
+          for (int x = left; x < std::min(left + block_size, box.x1); ++x) {
+            if (done_[image_.offset(x, y)] == 0) pixels.push_back({x, y});
+          }
+        }
+      }
+    }
+  }
+
+  // The same as pixel(), for all at once.
+  void tile_in_sheets(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {
+    list_missing(box, m.pixels);
+    const Scene& scene = tracer_.scene();
+    const int samples = scene.film.samples;
+    const bool records = samples == 1 && has_data_channels(scene) && !has_light_channels(scene);
+    m.sums.assign(m.pixels.size(), LinearRgb{0.0});
+    m.covered.assign(m.pixels.size(), 0);
+    for (int i = 0; i < samples; ++i) {
+      if (stop.load(std::memory_order_relaxed)) return;
+      sheets_->trace(m.pixels, settings_.image_number, i, eye_, records, *m.sheet, m.scratch, m.light);
+      for (std::size_t k = 0; k < m.pixels.size(); ++k) {
+        if (m.light.covered[k] == 0) continue;
+        m.sums[k] += m.light.colour[k];
+        ++m.covered[k];
+      }
+    }
+    for (std::size_t k = 0; k < m.pixels.size(); ++k) {
+      const auto [x, y] = m.pixels[k];
+      LinearRgb colour = m.sums[k] / double(samples);
+      if (m.covered[k] > 0 && tracer_.has_stars()) colour += tracer_.stars(x, y, eye_, m.scratch);
+      bool finite = writer_.colour(x, y, colour, double(m.covered[k]) / samples);
+      if (records) {
+        finite &= writer_.data(x, y, m.light.record[k]);
+      } else if (has_data_channels(scene)) {
+        finite &= data(x, y, m.scratch);
+      }
+      if (!finite) ++m.scratch.counts.non_finite;
+      done_[image_.offset(x, y)] = 1;
     }
   }
 
@@ -107,6 +186,7 @@ class ViewRenderer {
   }
 
   const Tracer& tracer_;
+  const SheetTracer* sheets_;  // null: one ray at a time
   const RenderSettings& settings_;
   int eye_;
   PixelWriter writer_;
@@ -114,25 +194,26 @@ class ViewRenderer {
   std::vector<std::uint8_t>& done_;
 };
 
-std::vector<ViewRenderer> views_of(const Tracer& tracer, const RenderSettings& settings,
-                                   PartialImage& partial) {
+std::vector<ViewRenderer> views_of(const Tracer& tracer, const SheetTracer* sheets,
+                                   const RenderSettings& settings, PartialImage& partial) {
   std::vector<ViewRenderer> views;
   if (!tracer.scene().camera.stereo) {
-    views.emplace_back(tracer, settings, 0, partial, 0);
+    views.emplace_back(tracer, sheets, settings, 0, partial, 0);
   } else {
-    views.emplace_back(tracer, settings, -1, partial, 0);
-    views.emplace_back(tracer, settings, +1, partial, 1);
+    views.emplace_back(tracer, sheets, settings, -1, partial, 0);
+    views.emplace_back(tracer, sheets, settings, +1, partial, 1);
   }
   return views;
 }
 
-RenderStatistics summed(const std::vector<Scratch>& scratches) {
+RenderStatistics summed(const std::vector<ThreadMemory>& memories) {
   RenderStatistics statistics;
-  for (const Scratch& scratch : scratches) {
-    statistics.rays.primary += scratch.counts.primary;
-    statistics.rays.shadow += scratch.counts.shadow;
-    statistics.rays.data += scratch.counts.data;
-    statistics.rays.non_finite += scratch.counts.non_finite;
+  for (const ThreadMemory& memory : memories) {
+    const RayCounts& rays = memory.scratch.counts;
+    statistics.rays.primary += rays.primary;
+    statistics.rays.shadow += rays.shadow;
+    statistics.rays.data += rays.data;
+    statistics.rays.non_finite += rays.non_finite;
   }
   return statistics;
 }
@@ -140,7 +221,7 @@ RenderStatistics summed(const std::vector<Scratch>& scratches) {
 }  // namespace
 
 std::size_t tile_count(const Scene& scene, const RenderSettings& settings) {
-  return TileGrid(data_window(scene, settings)).count();
+  return TileGrid(scene, settings).count();
 }
 
 bool PartialImage::is_complete() const {
@@ -165,20 +246,25 @@ PartialImage begin_image(const Scene& scene, const RenderSettings& settings) {
 RenderStatistics render_missing(const Scene& scene, const RenderSettings& settings, PartialImage& partial,
                                 const std::atomic<bool>& stop, ProgressReporter* progress) {
   const auto start = std::chrono::steady_clock::now();
-  const TileGrid grid(data_window(scene, settings));
+  const TileGrid grid(scene, settings);
   const Tracer tracer(scene, settings.wavelengths);
-  std::vector<ViewRenderer> views = views_of(tracer, settings, partial);
-  std::vector<Scratch> scratches(static_cast<std::size_t>(std::max(1, settings.threads)),
-                                 tracer.make_scratch());
+  std::optional<SheetTracer> sheets;
+  if (settings.path == RayPath::sheets && SheetTracer::can_trace(scene)) {
+    sheets.emplace(tracer, settings.instructions);
+  }
+  const SheetTracer* in_use = sheets ? &*sheets : nullptr;
+  std::vector<ViewRenderer> views = views_of(tracer, in_use, settings, partial);
+  std::vector<ThreadMemory> memories;
+  for (int i = 0; i < std::max(1, settings.threads); ++i) memories.emplace_back(tracer, in_use);
 
   run_on_threads(grid.count(), settings.threads, stop, [&](std::size_t index, int thread) {
     for (ViewRenderer& view : views) {
-      view.tile(grid.tile(index), stop, scratches[static_cast<std::size_t>(thread)]);
+      view.tile(grid.tile(index), stop, memories[static_cast<std::size_t>(thread)]);
     }
     if (progress != nullptr) progress->advance();
   });
 
-  RenderStatistics statistics = summed(scratches);
+  RenderStatistics statistics = summed(memories);
   statistics.threads = settings.threads;
   statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return statistics;

@@ -69,9 +69,8 @@ inline LocalLine local_line(const RestRay& ray, const PlacedSurface& surface) {
     near[i] =
         re_origined(ray.origin[i], centre[i], lambda, lambda_split, ray.direction[i], ray.direction_split[i]);
   }
-  const Mat3& local_from_rest = surface.placement.local_from_rest();
-  const Vec3 point = local_from_rest * near;
-  const Vec3 direction = local_from_rest * ray.direction;
+  const Vec3 point = surface.to_local(near);
+  const Vec3 direction = surface.to_local(ray.direction);
   const double length = std::sqrt(glm::dot(direction, direction));
   const double per_length = 1.0 / length;
   const Vec3 unit = direction / length;

@@ -20,7 +20,9 @@ Extent extent_along(const Mat3& m, int i) {
 }  // namespace
 
 PlacedSurface place(const Shape& shape, const Placement& placement) {
-  return {shape, placement, slack * methods(shape).bounding_radius(shape, glm::abs(placement.scale()))};
+  const bool aligned = placement.local_from_rest() == Mat3(1.0) && placement.rest_from_local() == Mat3(1.0);
+  return {shape, placement, slack * methods(shape).bounding_radius(shape, glm::abs(placement.scale())),
+          aligned};
 }
 
 AxisBox axis_box(const PlacedSurface& surface) {

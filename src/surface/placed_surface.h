@@ -21,6 +21,11 @@ struct PlacedSurface {
   Shape shape;
   Placement placement;
   double radius;  ///< of the bounding sphere about placement.position(), rest frame; may be infinite
+  bool aligned;   ///< neither turned nor scaled: local and rest coordinates have the same axes
+
+  [[nodiscard]] Vec3 to_local(const Vec3& rest) const {
+    return aligned ? rest : placement.local_from_rest() * rest;
+  }
 };
 
 PlacedSurface place(const Shape& shape, const Placement& placement);

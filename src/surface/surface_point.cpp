@@ -17,13 +17,14 @@ double largest(const Vec3& v) {
 
 SurfacePoint surface_point(const PlacedSurface& surface, const LocalLine& line, const Crossing& crossing) {
   const LocalPoint point = methods(surface.shape).point(surface.shape, line, crossing);
-  const Mat3& rest_from_local = surface.placement.rest_from_local();
-  const Vec3 offset = rest_from_local * point.position;
+  const Vec3 offset = surface.aligned ? point.position : surface.placement.rest_from_local() * point.position;
   SurfacePoint result;
   result.position = surface.placement.position() + offset;
   // A gradient is a covector: it goes by the transposed inverse, which also keeps it outward in a mirror
   // image.
-  result.normal = glm::normalize(glm::transpose(surface.placement.local_from_rest()) * point.gradient);
+  result.normal =
+      glm::normalize(surface.aligned ? point.gradient
+                                     : glm::transpose(surface.placement.local_from_rest()) * point.gradient);
   result.u = point.u;
   result.v = point.v;
   result.member = point.member;

@@ -206,10 +206,38 @@ SurfacePoint SurfaceSet::resolve(const Hit& hit, const Vec3& origin, const Vec3&
   if (nearest == nullptr) {  // a plane all but parallel to the ray
     const Vec3 offset = (origin - surface.placement.position()) + hit.lambda * direction;
     LocalLine there = line;
-    there.point = surface.placement.local_from_rest() * offset;
+    there.point = surface.to_local(offset);
     return surface_point(surface, there, {0.0, hit.part, false});
   }
   return surface_point(surface, line, *nearest);
+}
+
+Hit SurfaceSet::first_crossing_of(int surface, const Vec3& origin, const Vec3& direction,
+                                  const RayClock& clock) const {
+  const FirstCrossing first =
+      first_crossing(surfaces_[static_cast<std::size_t>(surface)], RestRay(origin, direction, clock), 0.0);
+  if (first.lambda == std::numeric_limits<double>::infinity()) return {};
+  return {first.lambda, surface, first.part, first.unresolved};
+}
+
+LaneSurface SurfaceSet::lane_surface(int surface) const {
+  const PlacedSurface& placed = surfaces_[static_cast<std::size_t>(surface)];
+  const Mat3& inverse = placed.placement.local_from_rest();
+  LaneSurface lanes;
+  if (placed.shape.kind == ShapeKind::sphere) lanes.kind = LaneSurface::Kind::sphere;
+  if (placed.shape.kind == ShapeKind::plane) lanes.kind = LaneSurface::Kind::plane;
+  lanes.aligned = placed.aligned;
+  lanes.radius = placed.shape.values[0];
+  lanes.bounding_radius = placed.radius;
+  for (int c = 0; c < 3; ++c) {
+    lanes.centre[c] = placed.placement.position()[c];
+    for (int r = 0; r < 3; ++r) {
+      lanes.local_from_rest.column[c][r] = inverse[c][r];
+      lanes.normal_from_gradient.column[c][r] = inverse[r][c];
+      lanes.rest_from_local.column[c][r] = placed.placement.rest_from_local()[c][r];
+    }
+  }
+  return lanes;
 }
 
 BoundingSphere SurfaceSet::bounds(int surface) const {

@@ -1,34 +1,14 @@
 #include "backlight/trace/shading.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
-#include "backlight/colour/upsampling.h"
+#include "backlight/base/lane_power.h"
+#include "shading_steps.h"
 
 namespace backlight {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-// Which of a checker's two colours, by the parity of the square in texture coordinates.
-int checker_slot(const Checker& checker, const SurfacePoint& surface) {
-  const double square = std::floor(surface.u / checker.size) + std::floor(surface.v / checker.size);
-  return std::fmod(square, 2.0) == 0.0 ? 0 : 1;
-}
-
-LinearRgb texture_reflectance(const Material& material, const SurfacePoint& surface) {
-  const LinearRgb texel = material.texture->sample(surface.u, surface.v, TextureEdge::repeat);
-  return glm::clamp(texel, 0.0, 1.0);
-}
-
-// Strength of a lamp at its own time, in scene seconds; a formula below zero means that the lamp is off.
-double strength_at(const Light& light, double own_time, double c, std::vector<double>& variables) {
-  if (!light.flickers) return light.strength;
-  variables[0] = own_time / c;
-  const double strength = light.strength_of_time.evaluate(variables);
-  return strength < 0.0 ? 0.0 : strength;  // NaN stays, and is counted
-}
 
 // Phong's lobe, normalised so that `specular` is the share of the light that it reflects at normal incidence
 // (Lafortune & Willems 1994): k (n+2)/2π cosⁿα.
@@ -37,7 +17,7 @@ double specular_brdf(const Material& material, const SeenPoint& point, const Arr
   const Vec3 mirrored = 2.0 * a.cosine * point.normal - a.to_light;
   const double alpha = glm::dot(mirrored, point.to_camera);
   if (alpha <= 0.0) return 0.0;
-  return material.specular * (material.shininess + 2.0) / (2.0 * pi) * std::pow(alpha, material.shininess);
+  return material.specular * (material.shininess + 2.0) / (2.0 * pi) * power(alpha, material.shininess);
 }
 
 // Calls `add(light index, irradiance, specular, arrival)` for each light that reaches the point: irradiance
@@ -68,25 +48,6 @@ void for_each_lamp(const ShadingContext& context, const SeenPoint& point, const 
   }
 }
 
-void fill_reflectance(const Material& material, const SurfacePoint& surface, Scratch& s) {
-  const int n = static_cast<int>(s.wavelengths.size());
-  if (material.texture) {
-    const SigmoidReflectance shape = upsample(texture_reflectance(material, surface));
-    if (material.uv || material.ir) {
-      const Spectrum levels = Spectrum::sigmoid_reflectance(shape, material.uv, material.ir);
-      levels.evaluate(s.wavelengths.data(), n, s.reflectance.data());
-    } else {
-      for (std::size_t i = 0; i < s.wavelengths.size(); ++i) s.reflectance[i] = shape.at(s.wavelengths[i]);
-    }
-    return;
-  }
-  const Colour& colour =
-      material.checker
-          ? material.checker->colours[static_cast<std::size_t>(checker_slot(*material.checker, surface))]
-          : material.reflectance;
-  colour.spectrum.evaluate(s.wavelengths.data(), n, s.reflectance.data());
-}
-
 }  // namespace
 
 Scratch::Scratch(const Hub& hub, const Scene& scene, std::size_t count)
@@ -100,8 +61,8 @@ Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, cons
   const int index = material_of(scene, point.hit, point.surface);
   const Material& material = scene.materials[static_cast<std::size_t>(index)];
   LinearRgb texel{0.0};
-  if (material.texture) texel = texture_reflectance(material, point.surface);
-  const int slot = material.checker ? checker_slot(*material.checker, point.surface) : 0;
+  if (material.texture) texel = texture_reflectance(material, point.surface.u, point.surface.v);
+  const int slot = material.checker ? checker_slot(*material.checker, point.surface.u, point.surface.v) : 0;
 
   Radiance<Rest> out{material.emits ? material.emission.rgb : LinearRgb{0.0}};
   for_each_lamp(context, point, effects, material, scratch,
@@ -118,26 +79,16 @@ void shade_spectrum(const ShadingContext& context, const SeenPoint& point, const
                     Scratch& s) {
   const int index = material_of(*context.scene, point.hit, point.surface);
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
-  const int n = static_cast<int>(s.wavelengths.size());
-  std::fill(s.radiance.begin(), s.radiance.end(), 0.0);
-  if (material.emits) material.emission.spectrum.evaluate(s.wavelengths.data(), n, s.radiance.data());
-  fill_reflectance(material, point.surface, s);
+  begin_spectrum(material, point.surface.u, point.surface.v, s);
   for_each_lamp(context, point, effects, material, s,
                 [&](std::size_t light, double irradiance, double specular, const Arrival& a) {
-                  for (std::size_t i = 0; i < s.wavelengths.size(); ++i) {
-                    s.at_light[i] = wavelength_at_origin(a.doppler, s.wavelengths[i]);
-                  }
-                  context.scene->lights[light].colour.spectrum.evaluate(s.at_light.data(), n, s.lamp.data());
-                  const double density = irradiance * wavelength_density_factor(a.doppler);
-                  for (std::size_t i = 0; i < s.wavelengths.size(); ++i) {
-                    s.radiance[i] += density * s.lamp[i] * (s.reflectance[i] / pi + specular);
-                  }
+                  add_spectrum(context.scene->lights[light], a.doppler, irradiance, specular, s);
                 });
 }
 
 int lamps_reaching(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                    Scratch& scratch) {
-  const int index = object_of(*context.scene, point.hit).material;
+  const int index = material_of(*context.scene, point.hit, point.surface);
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
   int count = material.emits ? 1 : 0;
   for_each_lamp(context, point, effects, material, scratch,

@@ -54,7 +54,11 @@ LinearRgb Tracer::colour(const CameraRay& ray, const Effects& effects, Scratch& 
   // along the past light cone, and the nearest of them: the smallest λ.
   scratch.rays.start(ray);
   ++scratch.counts.primary;
-  const FirstHit hit = first_hit(hub_, scratch.rays);
+  return colour_of(ray, first_hit(hub_, scratch.rays), effects, scratch);
+}
+
+LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Effects& effects,
+                            Scratch& scratch) const {
   const int frame = hit.found() ? hit.frame : scene_->sky.frame;
   const RestRayEvents& events = scratch.rays.in(frame);
 
@@ -87,7 +91,10 @@ LinearRgb Tracer::colour(const CameraRay& ray, const Effects& effects, Scratch& 
 SurfaceRecord Tracer::surface(const CameraRay& ray, Scratch& scratch) const {
   scratch.rays.start(ray);
   ++scratch.counts.data;
-  const FirstHit hit = first_hit(hub_, scratch.rays);
+  return surface_of(ray, first_hit(hub_, scratch.rays), scratch);
+}
+
+SurfaceRecord Tracer::surface_of(const CameraRay& ray, const FirstHit& hit, Scratch& scratch) const {
   SurfaceRecord record;
   if (!hit.found()) {
     record.doppler = scratch.rays.in(scene_->sky.frame).doppler(ray.light_delay).value;

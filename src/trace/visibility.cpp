@@ -1,5 +1,6 @@
 #include "backlight/trace/visibility.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace backlight {
@@ -30,23 +31,22 @@ FirstHit first_hit(const Hub& hub, RayInFrames& rays) {
   return first;
 }
 
+bool is_shadowed_in(int frame, const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,
+                    const ShadowSegment& segment) {
+  const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(frame)].scene->surfaces;
+  if (frame == hit.frame) {
+    return surfaces.blocked(segment.start_in_surface_frame, segment.direction_in_surface_frame, 0.0,
+                            segment.end, segment.clock_in_surface_frame);
+  }
+  const Event<Rest> start = rays.in(frame).at(hit.lambda);
+  const NullDirection<Rest> direction = light.to_frame[static_cast<std::size_t>(frame)](segment.direction);
+  return surfaces.blocked(start.x, direction.x, 0.0, segment.end, {start.t, -direction.length});
+}
+
 bool is_shadowed(const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,
                  const ShadowSegment& segment) {
-  for (const int index : hub.occupied) {
-    const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(index)].scene->surfaces;
-    if (index == hit.frame) {
-      if (surfaces.blocked(segment.start_in_surface_frame, segment.direction_in_surface_frame, 0.0,
-                           segment.end, segment.clock_in_surface_frame)) {
-        return true;
-      }
-      continue;
-    }
-    const auto& to_frame = light.to_frame[static_cast<std::size_t>(index)];
-    const Event<Rest> start = rays.in(index).at(hit.lambda);
-    const NullDirection<Rest> direction = to_frame(segment.direction);
-    if (surfaces.blocked(start.x, direction.x, 0.0, segment.end, {start.t, -direction.length})) return true;
-  }
-  return false;
+  return std::any_of(hub.occupied.begin(), hub.occupied.end(),
+                     [&](int frame) { return is_shadowed_in(frame, hub, rays, hit, light, segment); });
 }
 
 }  // namespace backlight

@@ -30,6 +30,8 @@ Rendering render(ReadResult read, const RenderChoices& choices) {
   settings.threads = choices.threads;
   settings.crop = choices.crop;
   settings.wavelengths = choices.wavelengths.value_or(needs_of(*scene).wavelengths);
+  settings.path = choices.path;
+  settings.instructions = choices.instructions;
   const std::atomic<bool> stop{false};
   std::optional<RenderedImage> result = render_image(*scene, settings, stop, nullptr);
   return {std::move(*scene), std::move(result->image), result->statistics};

@@ -39,6 +39,8 @@ struct RenderChoices {
   std::optional<double> time;
   std::optional<int> frame;  ///< number of the image in its animation
   std::vector<std::string> overrides;
+  RayPath path = RayPath::sheets;
+  InstructionSet instructions = InstructionSet::widest;
 };
 
 /// Renders a scene given as text. Throws std::runtime_error with the diagnostics when it is wrong.

@@ -10,17 +10,23 @@
 
 #include "backlight/film/exr.h"
 #include "backlight/film/image.h"
-#include "backlight/trace/tracer.h"
+#include "backlight/trace/sheet_tracer.h"
 
 namespace backlight {
 
 class ProgressReporter;
+
+/// How the rays go: many at once, or one by one, every object asked: the law that all others obey to the last
+/// bit. For tests and measurements.
+enum class RayPath { sheets, one_by_one };
 
 struct RenderSettings {
   int threads = 1;
   std::optional<PixelBox> crop;   ///< pixels of the full image; the EXR's data window
   int wavelengths = 0;            ///< of Needs: 0 = no colour is shifted
   std::int64_t image_number = 1;  ///< of the animation: the sample positions depend on it
+  RayPath path = RayPath::sheets;
+  InstructionSet instructions = InstructionSet::widest;  ///< of sheets
 };
 
 /// What making the image took.

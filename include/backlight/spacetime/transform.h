@@ -67,8 +67,13 @@ class LorentzTransform {
   /// The celerity of To as seen from From, in From's axes.
   [[nodiscard]] const Vec3& celerity() const { return celerity_; }
   [[nodiscard]] double gamma() const { return gamma_; }
+  [[nodiscard]] double inverse_gamma_plus_one() const { return inverse_gamma_plus_one_; }
   /// The rotation R of Λ = R B(w).
   [[nodiscard]] const Mat3& rotation() const { return rotation_; }
+  /// Whether R is not the unit matrix.
+  [[nodiscard]] bool is_rotated() const { return rotated_; }
+  /// Whether null vectors take the robust path: γ > robust_gamma.
+  [[nodiscard]] bool is_robust() const { return robust_; }
   /// True when the frames are at rest to each other: the transformation then changes no bit.
   [[nodiscard]] bool is_identity() const { return identity_; }
 

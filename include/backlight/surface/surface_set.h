@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backlight/base/vector.h"
+#include "backlight/surface/lane_surface.h"
 #include "backlight/surface/placement.h"
 #include "backlight/surface/ray_clock.h"
 #include "backlight/surface/shape.h"
@@ -88,6 +89,13 @@ class SurfaceSet {
   /// onto it.
   [[nodiscard]] SurfacePoint resolve(const Hit& hit, const Vec3& origin, const Vec3& direction,
                                      const RayClock& clock = {}) const;
+
+  /// nearest() of one surface alone: the first crossing at λ > 0, or nowhere.
+  [[nodiscard]] Hit first_crossing_of(int surface, const Vec3& origin, const Vec3& direction,
+                                      const RayClock& clock = {}) const;
+
+  /// A surface as the lanes have it: of kind `other` where only one ray at a time can be asked.
+  [[nodiscard]] LaneSurface lane_surface(int surface) const;
 
   [[nodiscard]] BoundingSphere bounds(int surface) const;
   [[nodiscard]] BoundingSphere bounds() const;  ///< of the whole set

@@ -33,8 +33,15 @@ class Tracer {
   /// Scene-linear film colour of the light along `ray`, stars apart.
   LinearRgb colour(const CameraRay& ray, const Effects& effects, Scratch& scratch) const;
 
+  /// The same when it is known what the ray meets first: `hit`, or nothing.
+  LinearRgb colour_of(const CameraRay& ray, const FirstHit& hit, const Effects& effects,
+                      Scratch& scratch) const;
+
   /// What the ray meets.
   SurfaceRecord surface(const CameraRay& ray, Scratch& scratch) const;
+
+  /// The same when it is known what that is.
+  SurfaceRecord surface_of(const CameraRay& ray, const FirstHit& hit, Scratch& scratch) const;
 
   /// Fills `lamps` and `unshifted` of the record of the same ray. Needs the data channels "light" in the
   /// scene's film.
@@ -45,6 +52,10 @@ class Tracer {
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Hub& hub() const { return hub_; }
+  [[nodiscard]] const RestColours& rest_colours() const { return rest_colours_; }
+  [[nodiscard]] const WavelengthSet& wavelengths() const { return wavelengths_; }
+  [[nodiscard]] bool is_spectral() const { return spectral_; }
+  [[nodiscard]] bool has_stars() const { return !stars_.empty(); }
 
  private:
   const Scene* scene_;

@@ -70,6 +70,11 @@ struct ShadowSegment {
 
 /// Whether something is between the hit and the light: docs/physics.md equation (11). Tested in each
 /// occluder's own frame, at the retarded times by construction.
+/// The part of it that one frame has (one of hub.occupied).
+bool is_shadowed_in(int frame, const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,
+                    const ShadowSegment& segment);
+
+/// The same over all frames.
 bool is_shadowed(const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,
                  const ShadowSegment& segment);
 

@@ -1,0 +1,171 @@
+// Several doubles at once: one variable of a kernel for as many rays as the machine's registers are wide.
+//
+// Kernels are templates over the number of lanes. Every operation is one IEEE operation per lane, in the
+// order in which it is written (-ffp-contract=off), so that two lanes and four give the same bits, and those
+// of one number after the other.
+//
+// The files that are compiled for a wider instruction set than the rest of the program instantiate these
+// templates with a width of their own, and call no other function that is not inlined by force: the linker
+// keeps one copy of an inline function, and must not find one that the machine cannot run.
+#pragma once
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#endif
+
+#define BACKLIGHT_LANES __attribute__((always_inline)) inline
+
+namespace backlight {
+
+/// The compiler's own vectors of N numbers. (One by one: gcc 12 drops a vector_size that depends on N; and it
+/// makes wrong code of vectors of one number, so that there are none. A machine without vectors takes two
+/// numbers one after the other.)
+template <int N>
+struct LaneRegister;
+template <>
+struct LaneRegister<2> {
+  typedef double Numbers __attribute__((vector_size(16)));
+  typedef long long Integers __attribute__((vector_size(16)));
+};
+template <>
+struct LaneRegister<4> {
+  typedef double Numbers __attribute__((vector_size(32)));
+  typedef long long Integers __attribute__((vector_size(32)));
+};
+
+/// Yes or no for each lane.
+template <int N>
+struct LaneMask {
+  using Vec = typename LaneRegister<N>::Integers;
+  Vec v;
+
+  friend BACKLIGHT_LANES LaneMask operator&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
+  friend BACKLIGHT_LANES LaneMask operator|(LaneMask a, LaneMask b) { return {a.v | b.v}; }
+  friend BACKLIGHT_LANES LaneMask operator~(LaneMask a) { return {~a.v}; }
+};
+
+/// N doubles.
+template <int N>
+struct Lanes {
+  static constexpr int width = N;
+  using Mask = LaneMask<N>;
+  using Vec = typename LaneRegister<N>::Numbers;
+  Vec v;
+
+  Lanes() = default;
+  BACKLIGHT_LANES Lanes(Vec all) : v(all) {}
+  BACKLIGHT_LANES Lanes(double same) : v(Vec{} + same) {}  // NOLINT: a number is the same in every lane
+
+  static BACKLIGHT_LANES Lanes load(const double* from) {
+    Lanes r;
+    __builtin_memcpy(&r.v, from, sizeof r.v);
+    return r;
+  }
+  BACKLIGHT_LANES void store(double* to) const { __builtin_memcpy(to, &v, sizeof v); }
+
+  friend BACKLIGHT_LANES Lanes operator+(Lanes a, Lanes b) { return a.v + b.v; }
+  friend BACKLIGHT_LANES Lanes operator-(Lanes a, Lanes b) { return a.v - b.v; }
+  friend BACKLIGHT_LANES Lanes operator*(Lanes a, Lanes b) { return a.v * b.v; }
+  friend BACKLIGHT_LANES Lanes operator/(Lanes a, Lanes b) { return a.v / b.v; }
+  friend BACKLIGHT_LANES Lanes operator-(Lanes a) { return -a.v; }
+  friend BACKLIGHT_LANES Mask operator<(Lanes a, Lanes b) { return {a.v < b.v}; }
+  friend BACKLIGHT_LANES Mask operator<=(Lanes a, Lanes b) { return {a.v <= b.v}; }
+  friend BACKLIGHT_LANES Mask operator>(Lanes a, Lanes b) { return {a.v > b.v}; }
+  friend BACKLIGHT_LANES Mask operator>=(Lanes a, Lanes b) { return {a.v >= b.v}; }
+  friend BACKLIGHT_LANES Mask operator==(Lanes a, Lanes b) { return {a.v == b.v}; }
+};
+
+/// Lane by lane: mask ? a : b.
+template <int N>
+BACKLIGHT_LANES Lanes<N> select(LaneMask<N> mask, Lanes<N> a, Lanes<N> b) {
+  return mask.v ? a.v : b.v;
+}
+
+/// Bit i is lane i.
+template <int N>
+BACKLIGHT_LANES unsigned bits(LaneMask<N> mask) {
+#if defined(__AVX__)
+  if constexpr (N == 4) return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask.v));
+#endif
+#if defined(__SSE2__)
+  if constexpr (N == 2) return static_cast<unsigned>(_mm_movemask_pd((__m128d)mask.v));
+#endif
+  unsigned all = 0;
+  for (int i = 0; i < N; ++i) all |= (mask.v[i] != 0 ? 1U : 0U) << i;
+  return all;
+}
+
+/// The opposite of bits().
+template <int N>
+BACKLIGHT_LANES LaneMask<N> mask_of_bits(unsigned all) {
+  LaneMask<N> mask;
+  for (int i = 0; i < N; ++i) mask.v[i] = -static_cast<long long>((all >> i) & 1U);
+  return mask;
+}
+
+template <int N>
+BACKLIGHT_LANES Lanes<N> sqrt(Lanes<N> a) {
+#if defined(__AVX__)
+  if constexpr (N == 4) return (typename Lanes<N>::Vec)_mm256_sqrt_pd((__m256d)a.v);
+#endif
+#if defined(__SSE2__)
+  if constexpr (N == 2) return (typename Lanes<N>::Vec)_mm_sqrt_pd((__m128d)a.v);
+#elif defined(__aarch64__)
+  if constexpr (N == 2) return (typename Lanes<N>::Vec)vsqrtq_f64((float64x2_t)a.v);
+#endif
+  Lanes<N> root;
+  for (int i = 0; i < N; ++i) root.v[i] = __builtin_sqrt(a.v[i]);
+  return root;
+}
+
+/// Three coordinates of N things.
+template <class V>
+struct LaneVec3 {
+  V x, y, z;
+
+  LaneVec3() = default;
+  BACKLIGHT_LANES LaneVec3(V a, V b, V c) : x(a), y(b), z(c) {}
+  explicit BACKLIGHT_LANES LaneVec3(const double (&same)[3]) : x(same[0]), y(same[1]), z(same[2]) {}
+
+  friend BACKLIGHT_LANES LaneVec3 operator+(LaneVec3 a, LaneVec3 b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend BACKLIGHT_LANES LaneVec3 operator-(LaneVec3 a, LaneVec3 b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend BACKLIGHT_LANES LaneVec3 operator*(V s, LaneVec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend BACKLIGHT_LANES LaneVec3 operator/(LaneVec3 a, V s) { return {a.x / s, a.y / s, a.z / s}; }
+  friend BACKLIGHT_LANES LaneVec3 operator-(LaneVec3 a) { return {-a.x, -a.y, -a.z}; }
+};
+
+/// The sum from left to right, as GLM's.
+template <class V>
+BACKLIGHT_LANES V dot(LaneVec3<V> a, LaneVec3<V> b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class V>
+BACKLIGHT_LANES V length(LaneVec3<V> a) {
+  return sqrt(dot(a, a));
+}
+
+template <class V>
+BACKLIGHT_LANES LaneVec3<V> select(typename V::Mask mask, LaneVec3<V> a, LaneVec3<V> b) {
+  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+
+/// A 3x3 matrix, the same in every lane: three columns, as GLM's.
+struct LaneMatrix {
+  double column[3][3];
+
+  template <class V>
+  BACKLIGHT_LANES LaneVec3<V> times(LaneVec3<V> a) const {
+    return {V(column[0][0]) * a.x + V(column[1][0]) * a.y + V(column[2][0]) * a.z,
+            V(column[0][1]) * a.x + V(column[1][1]) * a.y + V(column[2][1]) * a.z,
+            V(column[0][2]) * a.x + V(column[1][2]) * a.y + V(column[2][2]) * a.z};
+  }
+};
+
+}  // namespace backlight

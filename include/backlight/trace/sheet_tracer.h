@@ -1,0 +1,65 @@
+// Many rays at once: the same light as the Tracer's, bit for bit, sooner.
+//
+// The rays of a tile go together, as arrays. What each may meet is found for whole tiles, from the cones that
+// moving things are on the camera's sky and on the lights' (docs/physics.md section 8); what is left is
+// solved for several rays in one instruction. The Tracer is the law: one ray at a time, every object asked.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "backlight/trace/tracer.h"
+
+namespace backlight {
+
+/// Which instructions the kernels over sheets use. All give the same bits.
+enum class InstructionSet {
+  widest,   ///< the most lanes that this machine has
+  baseline  ///< those that every machine of its kind has
+};
+
+struct TilePixel {
+  int x = 0;  ///< of the full image
+  int y = 0;
+};
+
+/// One sample of each pixel of a tile.
+struct TileLight {
+  std::vector<LinearRgb> colour;      ///< what Tracer::colour gives for its ray; 0 where there is none
+  std::vector<std::uint8_t> covered;  ///< whether the projection shows anything there
+  std::vector<SurfaceRecord> record;  ///< what Tracer::surface gives, when asked for
+};
+
+class SheetScene;
+struct SheetScratch;
+
+/// Traces tiles of one image. Immutable; each thread brings its own SheetScratch.
+class SheetTracer {
+ public:
+  /// The tracer must outlive this.
+  SheetTracer(const Tracer& tracer, InstructionSet set);
+  ~SheetTracer();
+  SheetTracer(const SheetTracer&) = delete;
+  SheetTracer& operator=(const SheetTracer&) = delete;
+
+  /// Whether this image's rays start from one event for each eye. (All around a stereo pair they do not, and
+  /// are traced one by one.)
+  [[nodiscard]] static bool can_trace(const Scene& scene);
+
+  [[nodiscard]] std::unique_ptr<SheetScratch, void (*)(SheetScratch*)> make_scratch() const;
+
+  /// Sample `sample` of every pixel, into `light`; counts into `scratch`.
+  void trace(std::span<const TilePixel> pixels, std::int64_t image_number, int sample, int eye, bool records,
+             SheetScratch& sheets, Scratch& scratch, TileLight& light) const;
+
+  /// How shadows are found, for the statistics.
+  [[nodiscard]] const char* instructions() const;
+
+ private:
+  const Tracer* tracer_;
+  std::unique_ptr<const SheetScene> scene_;
+};
+
+}  // namespace backlight

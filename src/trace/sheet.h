@@ -1,0 +1,215 @@
+// Sheets: the rays of a few neighbouring pixels as arrays, and the kernels over them.
+//
+// Plain numbers for the kernels' sake (base/lanes.h says why). What each step computes, and to what equation,
+// is told by src/trace/tracer.cpp, illumination.cpp and shading.cpp for one ray; kernels do the same
+// operation by operation, and tests/agreement compares the two bit for bit.
+#pragma once
+
+#include <cstdint>
+
+#include "backlight/surface/lane_surface.h"
+#include "backlight/trace/sheet_tracer.h"
+
+namespace backlight {
+
+inline constexpr int sheet_size = 64;  ///< rays: 8x8 pixels
+
+/// Λ = R B(w) of spacetime/transform.h, for relative γ <= robust_gamma.
+struct LaneMotion {
+  double celerity[3]{};
+  double gamma = 1.0;
+  double inverse_gamma_plus_one = 0.5;
+  LaneMatrix rotation{};
+  bool identity = true;
+  bool rotated = false;
+};
+
+/// A frame as the camera's event has it: FrameView.
+struct LaneFrame {
+  LaneMotion from_camera;
+  double origin[3]{};  ///< the camera's event...
+  double time = 0.0;   ///< ...in the frame's coordinates
+};
+
+/// Camera rays from one event.
+struct SheetRays {
+  int count = 0;
+  int padded = 0;  ///< count rounded up to whole registers; the last ray is repeated
+  bool light_delay = true;
+  alignas(64) double direction[3][sheet_size];
+  alignas(64) double lambda[sheet_size];  ///< of the nearest hit so far; infinite: none
+  alignas(64) double who[sheet_size];     ///< whose it is (an index, exact as a double), or -1
+};
+
+/// n·m >= h for the directions n that may meet something: docs/physics.md equation (15).
+struct LaneCone {
+  double axis[3]{};  ///< m
+  double level = 0;  ///< h, lowered by the bound on its rounding; -infinity: every direction
+};
+
+/// Many of them, as arrays. `radius` is that of the sphere behind the cone.
+struct ConeTable {
+  int count = 0;
+  double* axis[3]{};
+  double* level = nullptr;
+  double* radius = nullptr;
+  int* who = nullptr;
+};
+
+/// A bundle of directions from one event: a cone around `axis`.
+struct Bundle {
+  double axis[3]{};
+  double cosine = -1.0;  ///< of the half-angle; rounded down
+  double sine = 1e-14;
+  double time = 0.0;  ///< of a bundle of light: the middle of the emission times, from the camera event's...
+  double half_time = 0.0;  ///< ...and how far they are from it
+};
+
+/// Occluders as a light has them: each one's motion relative to the light, and where the light is in its
+/// frame.
+struct LampTable {
+  int count = 0;
+  double* celerity[3]{};  ///< w, of the occluder's frame, in the light's axes
+  double* gamma = nullptr;
+  double* inverse_gamma_plus_one = nullptr;
+  double* speed = nullptr;  ///< |w|
+  double* place[3]{};       ///< x₀: the light relative to the occluder's centre, axes turned to the light's
+  double* radius = nullptr;
+  int* who = nullptr;
+};
+
+/// Points of one surface, with what each kernel adds to them.
+struct PointSheet {
+  int count = 0;
+  int padded = 0;
+  bool light_delay = true;
+  double frame = 0;  ///< index of the surface's frame
+  int lane[sheet_size];
+  alignas(64) double direction[3][sheet_size];  ///< of the camera ray, camera frame
+  alignas(64) double lambda[sheet_size];
+  // resolve():
+  alignas(64) double position[3][sheet_size];
+  alignas(64) double normal[3][sheet_size];  ///< on the side that is seen
+  alignas(64) double to_camera[3][sheet_size];
+  alignas(64) double start[3][sheet_size];  ///< of shadow rays
+  alignas(64) double u[sheet_size];
+  alignas(64) double v[sheet_size];
+  alignas(64) double proper_time[sheet_size];
+  alignas(64) double doppler[sheet_size];  ///< D on the way to the camera
+  // arrive(), for one light:
+  alignas(64) double lit[sheet_size];                ///< 1 or 0
+  alignas(64) double place[3][sheet_size];           ///< the point in the light's frame
+  alignas(64) double way[3][sheet_size];             ///< K, from the point to the light, in the light's frame
+  alignas(64) double way_length[sheet_size];         ///< |K|
+  alignas(64) double way_in_surface[3][sheet_size];  ///< the same in the surface's frame
+  alignas(64) double surface_length[sheet_size];     ///< |K| there
+  alignas(64) double to_light[3][sheet_size];        ///< unit, surface's frame
+  alignas(64) double cosine[sheet_size];
+  alignas(64) double lamp_doppler[sheet_size];
+  alignas(64) double inverse_square[sheet_size];
+  alignas(64) double emission_time[sheet_size];           ///< the lamp's own
+  alignas(64) double relative_emission_time[sheet_size];  ///< the same from the camera event's
+  // occlude() for surfaces that take one ray at a time:
+  alignas(64) double trial[sheet_size];  ///< 1 where the shadow ray is to be tested
+  alignas(64) double trial_start[3][sheet_size];
+  alignas(64) double trial_direction[3][sheet_size];
+  alignas(64) double trial_time[sheet_size];  ///< of its start, in the occluder's frame...
+  alignas(64) double trial_rate[sheet_size];  ///< ...and how it changes along it
+  // reflect():
+  alignas(64) double strength[sheet_size];
+  alignas(64) double irradiance[sheet_size];
+  alignas(64) double specular[sheet_size];
+  alignas(64) double diffuse[3][sheet_size];  ///< film colour under this lamp
+  alignas(64) double rgb[3][sheet_size];
+};
+
+/// Factors of the searchlight effect, as plain numbers: BrightnessSwitches.
+struct LaneBrightness {
+  bool photon_energy = true;
+  int arrival_rate = 0;  ///< 0 exact, 1 dilation, 2 off
+  bool solid_angle = true;
+};
+
+/// A light as seen from the frame of a sheet's points.
+struct LaneLamp {
+  LaneFrame frame;           ///< the light's
+  LaneMotion to_surface;     ///< from the light's frame to the surface's
+  double time_offset = 0.0;  ///< of the eye from the camera's event, in the light's frame
+  bool own_frame = false;    ///< it rests in the surface's frame
+  bool distant = false;
+  double position[3]{};
+  double direction[3]{};
+};
+
+/// What a bundle of light is made from.
+struct LightSpan {
+  double sum[3]{};
+  double least_cosine = 2.0;
+  double begin = 1e300;  ///< of the emission times, from the camera event's
+  double end = -1e300;
+};
+
+/// One occluder's part in a shadow.
+struct LaneOccluder {
+  const LaneFrame* frame = nullptr;
+  const LaneMotion* from_light = nullptr;
+  const LaneSurface* surface = nullptr;
+  double frame_index = 0;
+  LaneCone cone;     ///< on the light's sky
+  double end = 1.0;  ///< of the segment to the light
+};
+
+struct LaneReflection {
+  LaneBrightness brightness;
+  bool distant = false;
+  double gamma = 1.0;      ///< of the lamp relative to the surface
+  double specular = 0.0;   ///< k (n+2)/2π; 0: none
+  double shininess = 1.0;  ///< n
+  double lamp[3]{};        ///< its film colour
+};
+
+/// The kernels of one instruction set.
+struct SheetKernels {
+  const char* name;
+  int width;
+  /// Unit vectors along forward + x right + y up.
+  void (*look)(const double* x, const double* y, const double (*axes)[3], SheetRays& rays);
+  /// The smallest bundle about the mean of the rays.
+  Bundle (*bundle)(const SheetRays& rays);
+  /// Copies the cones that the bundle may meet; `to` has room for all.
+  void (*overlapping)(const ConeTable& from, const Bundle& bundle, ConeTable& to);
+  /// The same of the occluders on the light's sky; the cones go to `cones` if it is not null.
+  void (*overlapping_lamps)(const LampTable& from, const Bundle& bundle, LampTable& to, LaneCone* cones);
+  /// Widens the bundle of light that reaches what the rays have hit: with `axis` null only the sums for the
+  /// axis, of some of the rays.
+  void (*gather)(const LaneLamp& lamp, const SheetRays& rays, const double* axis, LightSpan& span);
+  /// Which rays are in the cone, one bit each.
+  std::uint64_t (*inside)(const SheetRays& rays, const LaneCone& cone);
+  /// Updates `lambda` and `who` where the surface is nearer.
+  void (*nearest)(const LaneFrame& frame, const LaneSurface& surface, const LaneCone& cone, double who,
+                  SheetRays& rays);
+  /// The rays' directions in the frame, and the rate of time along them: for surfaces that take one ray at a
+  /// time.
+  void (*in_frame)(const LaneFrame& frame, const SheetRays& rays, double (*direction)[sheet_size]);
+  /// Points of a sphere or plane. Bits: those that SurfaceSet::resolve has to find.
+  std::uint64_t (*resolve)(const LaneFrame& frame, const LaneSurface& surface, PointSheet& points);
+  /// What follows from points however found: `to_camera`, proper time, D, and the normal's side.
+  void (*face)(const LaneFrame& frame, const double* error_bound, PointSheet& points);
+  void (*arrive)(const LaneLamp& lamp, PointSheet& points);
+  /// The bundle of light that reaches the lit points; false when there are none.
+  bool (*light_bundle)(PointSheet& points, Bundle& bundle);
+  /// Unlights the points that the occluder (sphere or plane) shades; for any other surface, sets `trial`.
+  /// Returns whether anything was lit or is to be tried.
+  bool (*occlude)(const LaneOccluder& occluder, PointSheet& points);
+  /// Irradiance and Phong's lobe of the lit points.
+  void (*reflect)(const LaneReflection& reflection, PointSheet& points);
+  /// rgb += irradiance (diffuse/π + specular lamp) where lit.
+  void (*add_light)(const LaneReflection& reflection, PointSheet& points);
+  /// To the camera: rgb *= F.
+  void (*carry)(const LaneBrightness& brightness, double gamma, PointSheet& points);
+};
+
+/// The kernels, if this machine runs them; `baseline` always does.
+const SheetKernels& sheet_kernels(InstructionSet set);
+
+}  // namespace backlight

@@ -1,0 +1,435 @@
+// The kernels over sheets, for any number of lanes. Included by one file for each instruction set.
+// Longer than 400 lines: one table of kernels, which share their lanes.
+#pragma once
+
+#include "backlight/base/lane_power.h"
+#include "sheet.h"
+
+namespace backlight {
+
+template <class V>
+BACKLIGHT_LANES LaneVec3<V> load3(const double (&from)[3][sheet_size], int at) {
+  return {V::load(from[0] + at), V::load(from[1] + at), V::load(from[2] + at)};
+}
+
+template <class V>
+BACKLIGHT_LANES void store3(LaneVec3<V> a, double (&to)[3][sheet_size], int at) {
+  a.x.store(to[0] + at);
+  a.y.store(to[1] + at);
+  a.z.store(to[2] + at);
+}
+
+/// A vector with its time component (negative length of a past-directed null vector, or the rate of time).
+template <class V>
+struct LaneNull {
+  LaneVec3<V> x;
+  V length;
+};
+
+/// LorentzTransform's standard form of a null vector.
+template <class V>
+BACKLIGHT_LANES LaneNull<V> boosted(const LaneMotion& motion, LaneVec3<V> x, V length) {
+  if (motion.identity) return {x, length};
+  const LaneVec3<V> w(motion.celerity);
+  const V along = dot(w, x);
+  LaneVec3<V> y = x + (along * V(motion.inverse_gamma_plus_one) + length) * w;
+  if (motion.rotated) y = motion.rotation.times(y);
+  return {y, V(motion.gamma) * length + along};
+}
+
+/// in_frame() of trace/ray.h: direction, and minus the rate of time (1/D on the light cone).
+template <class V>
+BACKLIGHT_LANES LaneNull<V> looking(const LaneFrame& frame, LaneVec3<V> d, bool light_delay) {
+  const LaneMotion& motion = frame.from_camera;
+  if (light_delay) return boosted(motion, d, V(1.0));
+  if (motion.identity) return {d, V(0.0)};
+  const LaneVec3<V> w(motion.celerity);
+  const V along = dot(w, d);
+  LaneVec3<V> y = d + (along * V(motion.inverse_gamma_plus_one)) * w;
+  if (motion.rotated) y = motion.rotation.times(y);
+  return {y, along};
+}
+
+template <class V>
+BACKLIGHT_LANES V brightness_factor(const LaneBrightness& on, V d, double gamma, bool with_solid_angle) {
+  const V energy = on.photon_energy ? d : V(1.0);
+  const V rate = on.arrival_rate == 0 ? d : on.arrival_rate == 1 ? V(gamma) : V(1.0);
+  const V flux = energy * rate;
+  if (!with_solid_angle) return flux;
+  return flux * (on.solid_angle ? d * d : V(1.0));
+}
+
+template <int N>
+struct KernelsOf {
+  using V = Lanes<N>;
+  using V3 = LaneVec3<V>;
+  using Mask = LaneMask<N>;
+
+  static void look(const double* x, const double* y, const double (*axes)[3], SheetRays& rays) {
+    const V3 forward(axes[0]), right(axes[1]), up(axes[2]);
+    for (int i = 0; i < rays.padded; i += N) {
+      const V3 d = forward + V::load(x + i) * right + V::load(y + i) * up;
+      store3(d / length(d), rays.direction, i);
+    }
+  }
+
+  static double sum_of(V a) {
+    double sum = 0.0;
+    for (int i = 0; i < N; ++i) sum += a.v[i];
+    return sum;
+  }
+  static double least_of(V a) {
+    double least = a.v[0];
+    for (int i = 1; i < N; ++i) least = a.v[i] < least ? a.v[i] : least;
+    return least;
+  }
+
+  static void set_angle(Bundle& bundle, double cosine) {
+    // Room for the rounding of the dot products, and of the axis's length.
+    const double c = cosine - 1e-14 < -1.0 ? -1.0 : cosine - 1e-14;
+    bundle.cosine = c;
+    const double square = 1.0 - c * c;
+    bundle.sine = (square > 0.0 ? __builtin_sqrt(square) : 0.0) + 1e-14;
+  }
+
+  static Bundle bundle(const SheetRays& rays) {
+    V3 sum{V(0.0), V(0.0), V(0.0)};
+    for (int i = 0; i < rays.padded; i += N) sum = sum + load3<V>(rays.direction, i);
+    const double s[3] = {sum_of(sum.x), sum_of(sum.y), sum_of(sum.z)};
+    const double size = __builtin_sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+    Bundle result;
+    if (!(size > 0.0)) return result;
+    for (int k = 0; k < 3; ++k) result.axis[k] = s[k] / size;
+    V least = 2.0;
+    for (int i = 0; i < rays.padded; i += N) {
+      const V c = dot(load3<V>(rays.direction, i), V3(result.axis));
+      least = select(c < least, c, least);
+    }
+    set_angle(result, least_of(least));
+    return result;
+  }
+
+  static void overlapping(const ConeTable& from, const Bundle& b, ConeTable& to) {
+    to.count = 0;
+    for (int i = 0; i < from.count; i += N) {  // the arrays are longer by a register
+      const V level = V::load(from.level + i);
+      const V radius = V::load(from.radius + i);
+      const V along = V::load(from.axis[0] + i) * V(b.axis[0]) + V::load(from.axis[1] + i) * V(b.axis[1]) +
+                      V::load(from.axis[2] + i) * V(b.axis[2]);
+      const Mask meets = (along >= level * V(b.cosine) - radius * V(b.sine)) |
+                         (level * V(b.sine) + radius * V(b.cosine) <= V(0.0));
+      const unsigned hit = bits(meets) & (from.count - i < N ? (1U << (from.count - i)) - 1U : ~0U);
+      for (unsigned left = hit; left != 0; left &= left - 1) {
+        const int k = i + __builtin_ctz(left);
+        const int j = to.count++;
+        for (int a = 0; a < 3; ++a) to.axis[a][j] = from.axis[a][k];
+        to.level[j] = from.level[k];
+        to.radius[j] = from.radius[k];
+        to.who[j] = from.who[k];
+      }
+    }
+  }
+
+  static void overlapping_lamps(const LampTable& from, const Bundle& b, LampTable& to, LaneCone* cones) {
+    to.count = 0;
+    for (int i = 0; i < from.count; i += N) {
+      const V3 w{V::load(from.celerity[0] + i), V::load(from.celerity[1] + i), V::load(from.celerity[2] + i)};
+      const V3 x0{V::load(from.place[0] + i), V::load(from.place[1] + i), V::load(from.place[2] + i)};
+      const V gamma = V::load(from.gamma + i);
+      const V radius = V::load(from.radius + i) + V::load(from.speed + i) * V(b.half_time);
+      const V3 x = x0 - V(b.time) * w;
+      const V p = dot(x, w);
+      const V square = dot(x, x) - radius * radius;
+      const Mask outside = square > V(0.0);
+      const V q = sqrt(select(outside, square, V(0.0)));
+      const V3 m = (q - p * V::load(from.inverse_gamma_plus_one + i)) * w - x;
+      const V level = q * gamma - p - V(1e-13) * gamma * (q + radius);
+      const V along = dot(m, V3(b.axis));
+      const Mask meets = ~outside | (along >= level * V(b.cosine) - radius * V(b.sine)) |
+                         (level * V(b.sine) + radius * V(b.cosine) <= V(0.0));
+      const unsigned hit = bits(meets) & (from.count - i < N ? (1U << (from.count - i)) - 1U : ~0U);
+      if (hit == 0) continue;
+      const V kept = select(outside, level, V(-__builtin_inf()));
+      for (unsigned left = hit; left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        const int k = i + lane;
+        const int j = to.count++;
+        to.who[j] = from.who[k];
+        if (cones != nullptr) {
+          cones[j] = {{m.x.v[lane], m.y.v[lane], m.z.v[lane]}, kept.v[lane]};
+          continue;
+        }
+        for (int a = 0; a < 3; ++a) {
+          to.celerity[a][j] = from.celerity[a][k];
+          to.place[a][j] = from.place[a][k];
+        }
+        to.gamma[j] = from.gamma[k];
+        to.inverse_gamma_plus_one[j] = from.inverse_gamma_plus_one[k];
+        to.speed[j] = from.speed[k];
+        to.radius[j] = from.radius[k];
+      }
+    }
+  }
+
+  static void gather(const LaneLamp& lamp, const SheetRays& rays, const double* axis, LightSpan& span) {
+    const int step = axis == nullptr ? 4 * N : N;
+    V3 sum{V(0.0), V(0.0), V(0.0)};
+    V least = span.least_cosine, first = span.begin, last = span.end;
+    const V3 a = axis == nullptr ? sum : V3{V(axis[0]), V(axis[1]), V(axis[2])};
+    for (int i = 0; i < rays.padded; i += step) {
+      const Mask hit = V::load(rays.who + i) >= V(0.0);
+      if (bits(hit) == 0) continue;
+      const LaneNull<V> n = looking(lamp.frame, load3<V>(rays.direction, i), rays.light_delay);
+      const V lambda = select(hit, V::load(rays.lambda + i), V(0.0));
+      const V3 out = V3(lamp.frame.origin) + lambda * n.x - V3(lamp.position);
+      const V size = length(out);
+      const V3 unit = out / size;
+      if (axis == nullptr) {
+        const Mask far = hit & (size > V(0.0));
+        const V3 none{V(0.0), V(0.0), V(0.0)};
+        sum = sum + select(far, unit, none);
+        continue;
+      }
+      const V time = V(lamp.time_offset) + lambda * -n.length - size;
+      const V cosine = dot(unit, a);
+      // Not a number (a point at the lamp itself) counts as every direction.
+      least = select(hit, select(cosine >= least, least, select(cosine < least, cosine, V(-1.0))), least);
+      first = select(hit & (time < first), time, first);
+      last = select(hit & (time > last), time, last);
+    }
+    span.sum[0] += sum_of(sum.x);
+    span.sum[1] += sum_of(sum.y);
+    span.sum[2] += sum_of(sum.z);
+    span.least_cosine = least_of(least);
+    span.begin = least_of(first);
+    span.end = -least_of(-last);
+  }
+
+  static BACKLIGHT_LANES Mask in_cone(const SheetRays& rays, const LaneCone& cone, int i) {
+    return dot(load3<V>(rays.direction, i), V3(cone.axis)) >= V(cone.level);
+  }
+
+  static std::uint64_t inside(const SheetRays& rays, const LaneCone& cone) {
+    std::uint64_t all = 0;
+    for (int i = 0; i < rays.padded; i += N)
+      all |= static_cast<std::uint64_t>(bits(in_cone(rays, cone, i))) << i;
+    return rays.count < 64 ? all & ((std::uint64_t{1} << rays.count) - 1) : all;
+  }
+
+  static void nearest(const LaneFrame& frame, const LaneSurface& surface, const LaneCone& cone, double who,
+                      SheetRays& rays) {
+    const V3 origin(frame.origin);
+    for (int i = 0; i < rays.padded; i += N) {
+      if (bits(in_cone(rays, cone, i)) == 0) continue;
+      const LaneNull<V> n = looking(frame, load3<V>(rays.direction, i), rays.light_delay);
+      const LaneCrossing<V> crossing = lane_crossing(surface, LaneRay<V>{origin, n.x});
+      const V before = V::load(rays.lambda + i);
+      const Mask nearer = crossing.found & (crossing.lambda < before);
+      select(nearer, crossing.lambda, before).store(rays.lambda + i);
+      select(nearer, V(who), V::load(rays.who + i)).store(rays.who + i);
+    }
+  }
+
+  static void in_frame(const LaneFrame& frame, const SheetRays& rays, double (*direction)[sheet_size]) {
+    for (int i = 0; i < rays.padded; i += N) {
+      const LaneNull<V> n = looking(frame, load3<V>(rays.direction, i), rays.light_delay);
+      n.x.x.store(direction[0] + i);
+      n.x.y.store(direction[1] + i);
+      n.x.z.store(direction[2] + i);
+      (-n.length).store(direction[3] + i);
+    }
+  }
+
+  static BACKLIGHT_LANES void face_lanes(const LaneFrame& frame, const LaneNull<V>& n, V3 position, V3 normal,
+                                         V error_bound, PointSheet& p, int i) {
+    const V3 to_camera = -n.x / length(n.x);
+    const Mask outside = dot(normal, to_camera) >= V(0.0);
+    const V3 seen = select(outside, normal, -normal);
+    store3(seen, p.normal, i);
+    store3(to_camera, p.to_camera, i);
+    store3(position + error_bound * seen, p.start, i);
+    (V(frame.time) + V::load(p.lambda + i) * -n.length).store(p.proper_time + i);
+    (p.light_delay ? V(-1.0) / -n.length : V(1.0)).store(p.doppler + i);
+  }
+
+  static std::uint64_t resolve(const LaneFrame& frame, const LaneSurface& surface, PointSheet& p) {
+    std::uint64_t left = 0;
+    const V3 origin(frame.origin);
+    for (int i = 0; i < p.padded; i += N) {
+      const LaneNull<V> n = looking(frame, load3<V>(p.direction, i), p.light_delay);
+      const LanePoint<V> point = lane_resolve(surface, LaneRay<V>{origin, n.x}, V::load(p.lambda + i));
+      left |= static_cast<std::uint64_t>(bits(~point.resolved)) << i;
+      store3(point.position, p.position, i);
+      point.u.store(p.u + i);
+      point.v.store(p.v + i);
+      face_lanes(frame, n, point.position, point.normal, point.error_bound, p, i);
+    }
+    return left;
+  }
+
+  static void face(const LaneFrame& frame, const double* error_bound, PointSheet& p) {
+    for (int i = 0; i < p.padded; i += N) {
+      const LaneNull<V> n = looking(frame, load3<V>(p.direction, i), p.light_delay);
+      face_lanes(frame, n, load3<V>(p.position, i), load3<V>(p.normal, i), V::load(error_bound + i), p, i);
+    }
+  }
+
+  // Equations (10) and (12).
+  static void arrive(const LaneLamp& lamp, PointSheet& p) {
+    for (int i = 0; i < p.padded; i += N) {
+      const LaneNull<V> n = looking(lamp.frame, load3<V>(p.direction, i), p.light_delay);
+      const V lambda = V::load(p.lambda + i);
+      const V relative = lambda * -n.length;
+      const V time = lamp.own_frame ? V::load(p.proper_time + i) : V(lamp.frame.time) + relative;
+      const V3 place = lamp.own_frame ? load3<V>(p.position, i) : V3(lamp.frame.origin) + lambda * n.x;
+      V3 way;
+      V way_length;
+      if (lamp.distant) {
+        way = -V3(lamp.direction);
+        way_length = V(1.0);
+        (time - dot(V3(lamp.direction), place)).store(p.emission_time + i);
+        (V(lamp.time_offset) + relative).store(p.relative_emission_time + i);
+      } else {
+        way = V3(lamp.position) - place;
+        way_length = length(way);
+        (time - way_length).store(p.emission_time + i);
+        (V(lamp.time_offset) + relative - way_length).store(p.relative_emission_time + i);
+      }
+      const LaneNull<V> k = boosted(lamp.to_surface, way, way_length);
+      const V3 to_light = k.x / k.length;
+      const V cosine = dot(load3<V>(p.normal, i), to_light);
+      const Mask lit = (k.length > V(0.0)) & (cosine > V(0.0));
+      select(lit, V(1.0), V(0.0)).store(p.lit + i);
+      store3(place, p.place, i);
+      store3(way, p.way, i);
+      way_length.store(p.way_length + i);
+      store3(k.x, p.way_in_surface, i);
+      k.length.store(p.surface_length + i);
+      store3(to_light, p.to_light, i);
+      cosine.store(p.cosine + i);
+      (k.length / way_length).store(p.lamp_doppler + i);
+      (lamp.distant ? V(1.0) : V(1.0) / (k.length * k.length)).store(p.inverse_square + i);
+    }
+    for (int i = p.count; i < p.padded; ++i) p.lit[i] = 0.0;
+  }
+
+  static bool light_bundle(PointSheet& p, Bundle& bundle) {
+    V3 sum{V(0.0), V(0.0), V(0.0)};
+    V first = __builtin_inf(), last = -__builtin_inf();
+    bool any = false;
+    for (int i = 0; i < p.padded; i += N) {
+      const Mask lit = V::load(p.lit + i) > V(0.0);
+      if (bits(lit) == 0) continue;
+      any = true;
+      const V share = select(lit, V(-1.0) / V::load(p.way_length + i), V(0.0));
+      sum = sum + share * load3<V>(p.way, i);
+      const V time = V::load(p.relative_emission_time + i);
+      first = select(lit & (time < first), time, first);
+      last = select(lit & (time > last), time, last);
+    }
+    if (!any) return false;
+    const double s[3] = {sum_of(sum.x), sum_of(sum.y), sum_of(sum.z)};
+    const double size = __builtin_sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+    const double begin = least_of(first), end = -least_of(-last);
+    bundle = Bundle{};
+    bundle.time = 0.5 * (begin + end);
+    const double larger = end > -begin ? end : -begin;
+    bundle.half_time = 0.5 * (end - begin) + 1e-14 * (larger > 0.0 ? larger : -larger);
+    if (!(size > 0.0)) return true;
+    for (int k = 0; k < 3; ++k) bundle.axis[k] = s[k] / size;
+    V least = 2.0;
+    for (int i = 0; i < p.padded; i += N) {
+      const Mask lit = V::load(p.lit + i) > V(0.0);
+      const V c = -dot(load3<V>(p.way, i), V3(bundle.axis)) / V::load(p.way_length + i);
+      least = select(lit & (c < least), c, least);
+    }
+    set_angle(bundle, least_of(least));
+    return true;
+  }
+
+  static bool occlude(const LaneOccluder& o, PointSheet& p) {
+    const V3 axis(o.cone.axis), origin(o.frame->origin);
+    const bool own = p.frame == o.frame_index;
+    const bool one_by_one = o.surface->kind == LaneSurface::Kind::other;
+    bool any = false;
+    for (int i = 0; i < p.padded; i += N) {
+      const V lit = V::load(p.lit + i);
+      Mask open = lit > V(0.0);
+      const V3 way = load3<V>(p.way, i);
+      open = open & (-dot(way, axis) >= V(o.cone.level) * V::load(p.way_length + i));
+      if (one_by_one) select(open, V(1.0), V(0.0)).store(p.trial + i);
+      if (bits(open) == 0) continue;
+      any = true;
+      LaneRay<V> ray;
+      V time, rate;
+      if (own) {
+        ray = {load3<V>(p.start, i), load3<V>(p.way_in_surface, i)};
+        time = V::load(p.proper_time + i);
+        rate = -V::load(p.surface_length + i);
+      } else {
+        const LaneNull<V> n = looking(*o.frame, load3<V>(p.direction, i), p.light_delay);
+        const LaneNull<V> k = boosted(*o.from_light, way, V::load(p.way_length + i));
+        const V lambda = V::load(p.lambda + i);
+        ray = {origin + lambda * n.x, k.x};
+        time = V(o.frame->time) + lambda * -n.length;
+        rate = -k.length;
+      }
+      if (one_by_one) {
+        store3(ray.origin, p.trial_start, i);
+        store3(ray.direction, p.trial_direction, i);
+        time.store(p.trial_time + i);
+        rate.store(p.trial_rate + i);
+        continue;
+      }
+      const LaneCrossing<V> crossing = lane_crossing(*o.surface, ray);
+      const Mask blocked = open & crossing.found & (crossing.lambda < V(o.end));
+      select(blocked, V(0.0), lit).store(p.lit + i);
+    }
+    return any;
+  }
+
+  static void reflect(const LaneReflection& r, PointSheet& p) {
+    for (int i = 0; i < p.padded; i += N) {
+      const V cosine = V::load(p.cosine + i);
+      const V factor = brightness_factor(r.brightness, V::load(p.lamp_doppler + i), r.gamma, !r.distant);
+      (factor * V::load(p.strength + i) * cosine * V::load(p.inverse_square + i)).store(p.irradiance + i);
+      V lobe = 0.0;
+      if (r.specular != 0.0) {
+        const V3 mirrored = V(2.0) * cosine * load3<V>(p.normal, i) - load3<V>(p.to_light, i);
+        const V alpha = dot(mirrored, load3<V>(p.to_camera, i));
+        const Mask shines = alpha > V(0.0);
+        if (bits(shines) != 0) {
+          lobe = select(shines, V(r.specular) * power(select(shines, alpha, V(1.0)), V(r.shininess)), V(0.0));
+        }
+      }
+      lobe.store(p.specular + i);
+    }
+  }
+
+  static void add_light(const LaneReflection& r, PointSheet& p) {
+    const V pi = 3.141592653589793;
+    for (int i = 0; i < p.padded; i += N) {
+      const Mask lit = V::load(p.lit + i) > V(0.0);
+      if (bits(lit) == 0) continue;
+      const V irradiance = V::load(p.irradiance + i);
+      const V3 diffuse = load3<V>(p.diffuse, i) / pi;
+      const V3 sum = diffuse + V::load(p.specular + i) * V3(r.lamp);
+      const V3 before = load3<V>(p.rgb, i);
+      store3(select(lit, before + irradiance * sum, before), p.rgb, i);
+    }
+  }
+
+  static void carry(const LaneBrightness& brightness, double gamma, PointSheet& p) {
+    for (int i = 0; i < p.padded; i += N) {
+      const V factor = brightness_factor(brightness, V::load(p.doppler + i), gamma, true);
+      store3(factor * load3<V>(p.rgb, i), p.rgb, i);
+    }
+  }
+
+  static constexpr SheetKernels table(const char* name) {
+    return {name,     N,       look, bundle, overlapping,  overlapping_lamps, gather,  inside,    nearest,
+            in_frame, resolve, face, arrive, light_bundle, occlude,           reflect, add_light, carry};
+  }
+};
+
+}  // namespace backlight

@@ -1,0 +1,403 @@
+// Longer than 400 lines: the steps of one sheet's light, in the order in which they are taken.
+#include "sheet_shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "shading_steps.h"
+
+namespace backlight {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// With fewer occluders than this, each chunk of points looks at all of them.
+constexpr int tile_list_from = 48;
+
+Vec3 vec(const double (&from)[3][sheet_size], int lane) {
+  return {from[0][lane], from[1][lane], from[2][lane]};
+}
+
+void put(const Vec3& a, double (&to)[3][sheet_size], int lane) {
+  for (int k = 0; k < 3; ++k) to[k][lane] = a[k];
+}
+
+int count_lit(const PointSheet& p) {
+  int count = 0;
+  for (int i = 0; i < p.count; ++i) count += p.lit[i] > 0.0 ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+LaneBrightness lane_brightness(const BrightnessSwitches& on) {
+  const int rate = on.arrival_rate == ArrivalRate::exact      ? 0
+                   : on.arrival_rate == ArrivalRate::dilation ? 1
+                                                              : 2;
+  return {on.photon_energy, rate, on.solid_angle};
+}
+
+SheetScratch::SheetScratch(const SheetScene& scene, std::size_t lights)
+    : tile_lamps(lights), group_of(scene.occupants().size(), -1) {
+  tile_cones.resize(scene.occupants().size());
+  sheet_cones.resize(scene.occupants().size());
+  for (LampStore& lamps : tile_lamps) lamps.resize(scene.occluders().size());
+  chunk_lamps.resize(scene.occluders().size());
+  lamp_cones.resize(scene.occluders().size());
+}
+
+CameraRay SheetShader::camera_ray_of(int lane) const {
+  CameraRay ray;
+  ray.direction = vec(work_.points.direction, lane);
+  ray.light_delay = work_.points.light_delay;
+  ray.offset = eye_offset(tracer_.scene().camera, eye_);
+  ray.displaced = eye_ != 0;
+  return ray;
+}
+
+LaneLamp SheetShader::lane_lamp(std::size_t light, int frame) const {
+  const Light& lamp = tracer_.scene().lights[light];
+  LaneLamp lanes;
+  lanes.frame = sheets_.eye(eye_).frames[static_cast<std::size_t>(lamp.frame)];
+  lanes.to_surface = sheets_.lamp(light).to_frame[static_cast<std::size_t>(frame)];
+  lanes.time_offset =
+      lanes.frame.time - tracer_.hub().frames[static_cast<std::size_t>(lamp.frame)].camera_event.t;
+  lanes.own_frame = lamp.frame == frame;
+  lanes.distant = lamp.kind == LightKind::distant;
+  for (int i = 0; i < 3; ++i) {
+    lanes.position[i] = lamp.position[i];
+    lanes.direction[i] = lamp.direction[i];
+  }
+  return lanes;
+}
+
+void SheetShader::begin_tile(const Effects& effects) {
+  const Scene& scene = tracer_.scene();
+  for (std::size_t light = 0; light < scene.lights.size(); ++light) {
+    const LampView& view = sheets_.lamp(light);
+    if (scene.lights[light].kind != LightKind::point || !view.in_lanes ||
+        view.bounded.table().count < tile_list_from) {
+      continue;
+    }
+    const LaneLamp lamp = lane_lamp(light, scene.lights[light].frame);
+    LightSpan span;
+    for (const auto& sheet : work_.sheets) {
+      if (sheet.effects == &effects) sheets_.kernels().gather(lamp, sheet.rays, nullptr, span);
+    }
+    const Vec3 sum{span.sum[0], span.sum[1], span.sum[2]};
+    const double size = glm::length(sum);
+    Bundle bundle;
+    if (size > 0.0) {
+      for (int k = 0; k < 3; ++k) bundle.axis[k] = sum[k] / size;
+    }
+    for (const auto& sheet : work_.sheets) {
+      if (sheet.effects == &effects) sheets_.kernels().gather(lamp, sheet.rays, bundle.axis, span);
+    }
+    LampTable& list = work_.tile_lamps[light].table();
+    list.count = 0;
+    if (span.end < span.begin) continue;
+    // Twice the room of a chunk's own bundle, which must lie inside this one.
+    bundle.cosine = std::max(-1.0, std::min(span.least_cosine, 1.0) - 1e-12);
+    bundle.sine = std::sqrt(std::max(0.0, 1.0 - bundle.cosine * bundle.cosine)) + 1e-12;
+    bundle.time = 0.5 * (span.begin + span.end);
+    bundle.half_time = 0.5 * (span.end - span.begin) * (1.0 + 1e-9) +
+                       1e-12 * std::max(std::abs(span.begin), std::abs(span.end));
+    if (!(size > 0.0)) {
+      bundle.cosine = -1.0;
+      bundle.sine = 1e-12;
+    }
+    sheets_.kernels().overlapping_lamps(view.bounded.table(), bundle, list, nullptr);
+  }
+}
+
+// Returns the index of their material, or -1 for several.
+int SheetShader::resolve_one_by_one(const Occupant& occupant, std::span<const Hit> hits) {
+  PointSheet& p = work_.points;
+  const Scene& scene = tracer_.scene();
+  const SurfaceSet& surfaces = tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
+  alignas(64) double error_bound[sheet_size] = {};
+  int material = -1;
+  bool same = true;
+  for (int i = 0; i < p.padded; ++i) {
+    const int from = std::min(i, p.count - 1);
+    const Hit& hit = hits[static_cast<std::size_t>(from)];
+    scratch_.rays.start(camera_ray_of(from));
+    const RestRayEvents& ray = scratch_.rays.in(occupant.frame);
+    const SurfacePoint point = surfaces.resolve(hit, ray.origin, ray.direction, ray.clock());
+    put(point.position, p.position, i);
+    put(point.normal, p.normal, i);
+    p.u[i] = point.u;
+    p.v[i] = point.v;
+    error_bound[i] = point.error_bound;
+    const int own = material_of(scene, {hit, occupant.frame, Extended(p.lambda[from])}, point);
+    same = same && (i == 0 || own == material);
+    material = own;
+  }
+  sheets_.kernels().face(sheets_.eye(eye_).frames[static_cast<std::size_t>(occupant.frame)], error_bound, p);
+  return same ? material : -1;
+}
+
+int SheetShader::resolve(const Occupant& occupant, std::span<const Hit> hits) {
+  const Scene& scene = tracer_.scene();
+  const LaneSurface::Kind kind = occupant.lanes.kind;
+  if (kind == LaneSurface::Kind::other) return resolve_one_by_one(occupant, hits);
+  const int index = object_of(scene, {hits[0], occupant.frame, Extended(hits[0].lambda)}).material;
+  const Material& material = scene.materials[static_cast<std::size_t>(index)];
+  const bool needs_uv = material.texture || material.checker;
+  if (kind == LaneSurface::Kind::sphere && needs_uv) return resolve_one_by_one(occupant, hits);
+  const LaneFrame& frame = sheets_.eye(eye_).frames[static_cast<std::size_t>(occupant.frame)];
+  if (sheets_.kernels().resolve(frame, occupant.lanes, work_.points) == 0) return index;
+  return resolve_one_by_one(occupant, hits);
+}
+
+void SheetShader::fill_strength(const Light& light, std::size_t index) {
+  PointSheet& p = work_.points;
+  if (!light.flickers) {
+    std::fill_n(p.strength, p.padded, light.strength);
+    if (light.strength == 0.0) std::fill_n(p.lit, p.padded, 0.0);
+    return;
+  }
+  const double* time = light.kind == LightKind::ambient ? p.proper_time : p.emission_time;
+  for (int i = 0; i < p.padded; ++i) {
+    p.strength[i] = 0.0;
+    if (!(p.lit[i] > 0.0)) continue;
+    p.strength[i] = strength_at(light, time[i], tracer_.scene().c, scratch_.light_variables[index]);
+    if (p.strength[i] == 0.0 && light.kind != LightKind::ambient) p.lit[i] = 0.0;
+  }
+}
+
+void SheetShader::fill_diffuse(std::size_t light, int index) {
+  PointSheet& p = work_.points;
+  const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
+  const RestColours& colours = tracer_.rest_colours();
+  if (!material.texture && !material.checker) {
+    const LinearRgb& rgb = colours.under(light, index, 0);
+    for (int k = 0; k < 3; ++k) std::fill_n(p.diffuse[k], p.padded, rgb[k]);
+    return;
+  }
+  for (int i = 0; i < p.count; ++i) {
+    const LinearRgb rgb = material.texture
+                              ? colours.under(light, texture_reflectance(material, p.u[i], p.v[i]))
+                              : colours.under(light, index, checker_slot(*material.checker, p.u[i], p.v[i]));
+    put(rgb, p.diffuse, i);
+  }
+  for (int i = p.count; i < p.padded; ++i) put(LinearRgb{0.0}, p.diffuse, i);
+}
+
+void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, const Occupant& lit,
+                                 std::span<const Hit> hits) {
+  PointSheet& p = work_.points;
+  const Hub& hub = tracer_.hub();
+  const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(occluder.frame)].scene->surfaces;
+  const double end = tracer_.scene().lights[light].kind == LightKind::distant ? infinity : 1.0;
+  const bool far = sheets_.one_by_one(occluder.frame) ||
+                   hub.lights[light].to_frame[static_cast<std::size_t>(occluder.frame)].is_robust();
+  for (int i = 0; i < p.count; ++i) {
+    if (!(p.trial[i] > 0.0)) continue;
+    bool dark = false;
+    const RayClock clock{p.trial_time[i], p.trial_rate[i]};
+    if (far) {
+      scratch_.rays.start(camera_ray_of(i));
+      const FirstHit hit{hits[static_cast<std::size_t>(i)], lit.frame, Extended(p.lambda[i])};
+      const ShadowSegment segment{{vec(p.way, i), p.way_length[i]},
+                                  vec(p.start, i),
+                                  vec(p.way_in_surface, i),
+                                  {p.proper_time[i], -p.surface_length[i]},
+                                  end};
+      dark = is_shadowed_in(occluder.frame, hub, scratch_.rays, hit, hub.lights[light], segment);
+    } else if (occluder.surface < 0) {
+      dark = surfaces.blocked(vec(p.trial_start, i), vec(p.trial_direction, i), 0.0, end, clock);
+    } else {
+      dark = surfaces
+                 .first_crossing_of(occluder.surface, vec(p.trial_start, i), vec(p.trial_direction, i), clock)
+                 .lambda < end;
+    }
+    if (dark) p.lit[i] = 0.0;
+  }
+}
+
+void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone,
+                               const Occupant& lit, std::span<const Hit> hits) {
+  const auto frame = static_cast<std::size_t>(occluder.frame);
+  LaneOccluder lanes{&sheets_.eye(eye_).frames[frame],
+                     &sheets_.lamp(light).to_frame[frame],
+                     &occluder.lanes,
+                     static_cast<double>(occluder.frame),
+                     cone,
+                     1.0};
+  if (tracer_.scene().lights[light].kind == LightKind::distant) lanes.end = infinity;
+  LaneSurface none;
+  const bool robust = tracer_.hub().lights[light].to_frame[frame].is_robust();
+  if (robust) lanes.surface = &none;  // of kind `other`: one by one
+  if (sheets_.kernels().occlude(lanes, work_.points) && lanes.surface->kind == LaneSurface::Kind::other) {
+    try_one_by_one(light, occluder, lit, hits);
+  }
+}
+
+void SheetShader::shadow(std::size_t light, const Occupant& occupant, std::span<const Hit> hits) {
+  const LampView& view = sheets_.lamp(light);
+  LaneCone everything;
+  everything.level = -infinity;
+  for (const int i : view.unbounded) {
+    try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(i)], everything, occupant, hits);
+  }
+  if (view.bounded.table().count == 0) return;
+  if (tracer_.scene().lights[light].kind == LightKind::distant) {
+    shadow_of_distant(light, occupant, hits);
+    return;
+  }
+  Bundle bundle;
+  if (!sheets_.kernels().light_bundle(work_.points, bundle)) return;
+  const bool listed = view.bounded.table().count >= tile_list_from;
+  LampTable& near = work_.chunk_lamps.table();
+  sheets_.kernels().overlapping_lamps(listed ? work_.tile_lamps[light].table() : view.bounded.table(), bundle,
+                                      near, work_.lamp_cones.data());
+  for (int i = 0; i < near.count; ++i) {
+    try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(near.who[i])],
+                 work_.lamp_cones[static_cast<std::size_t>(i)], occupant, hits);
+  }
+}
+
+// Parallel light: in an occluder's frame all segments have one direction, and its shadow is a cylinder.
+void SheetShader::shadow_of_distant(std::size_t light, const Occupant& occupant, std::span<const Hit> hits) {
+  const PointSheet& p = work_.points;
+  const LampTable& table = sheets_.lamp(light).bounded.table();
+  const Light& lamp = tracer_.scene().lights[light];
+  const Vec3 from = tracer_.hub().frames[static_cast<std::size_t>(lamp.frame)].camera_event.x;
+  const Vec3 middle = vec(p.place, 0);
+  const double time = p.relative_emission_time[0];
+  double reach = 0.0;  // of the points' events from the first's
+  for (int i = 1; i < p.count; ++i) {
+    reach =
+        std::max(reach, glm::length(vec(p.place, i) - middle) + std::abs(p.relative_emission_time[i] - time));
+  }
+  LaneCone everything;
+  everything.level = -infinity;
+  for (int i = 0; i < table.count; ++i) {
+    const Vec3 w{table.celerity[0][i], table.celerity[1][i], table.celerity[2][i]};
+    const Vec3 place{table.place[0][i], table.place[1][i], table.place[2][i]};
+    const double turn = table.inverse_gamma_plus_one[i];
+    const Vec3 way = middle - from;
+    const Vec3 x = place + way + (glm::dot(w, way) * turn - time) * w;
+    const Vec3 k = -lamp.direction + (1.0 - glm::dot(w, lamp.direction) * turn) * w;
+    const double radius = (table.radius[i] + 2.0 * table.gamma[i] * reach) * (1.0 + 1e-9) +
+                          1e-12 * (glm::length(x) + table.gamma[i] * (glm::length(way) + std::abs(time)));
+    const double along = glm::dot(x, k) / glm::length(k);
+    const double aside = glm::dot(x, x) - along * along;
+    if (along > radius || aside > radius * radius + 1e-12 * glm::dot(x, x)) continue;
+    try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(table.who[i])], everything, occupant,
+                 hits);
+  }
+}
+
+// One lamp's light on the points, up to its irradiance; false: none of them is lit.
+bool SheetShader::light_arrives(std::size_t index, const Occupant& occupant, const Effects& effects,
+                                const Material& material, std::span<const Hit> hits,
+                                LaneReflection& reflection) {
+  PointSheet& p = work_.points;
+  const Light& light = tracer_.scene().lights[index];
+  for (int k = 0; k < 3; ++k) reflection.lamp[k] = light.colour.rgb[k];
+  if (light.kind == LightKind::ambient) {
+    std::fill_n(p.lit, p.count, 1.0);
+    std::fill(p.lit + p.count, p.lit + p.padded, 0.0);
+    fill_strength(light, index);
+    for (int i = 0; i < p.padded; ++i) {
+      p.irradiance[i] = pi * p.strength[i];
+      p.specular[i] = 0.0;
+      p.lamp_doppler[i] = 1.0;
+    }
+    return true;
+  }
+  sheets_.kernels().arrive(lane_lamp(index, occupant.frame), p);
+  fill_strength(light, index);
+  const int lit = count_lit(p);
+  if (lit == 0) return false;
+  scratch_.counts.shadow += static_cast<std::uint64_t>(lit);
+  shadow(index, occupant, hits);
+  reflection.brightness = lane_brightness(effects.brightness);
+  reflection.distant = light.kind == LightKind::distant;
+  reflection.gamma = tracer_.hub().lights[index].to_frame[static_cast<std::size_t>(occupant.frame)].gamma();
+  reflection.specular =
+      material.specular <= 0.0 ? 0.0 : material.specular * (material.shininess + 2.0) / (2.0 * pi);
+  reflection.shininess = material.shininess;
+  sheets_.kernels().reflect(reflection, p);
+  return true;
+}
+
+void SheetShader::light_rgb(const Occupant& occupant, const Material& material, int material_index,
+                            const Effects& effects, std::span<const Hit> hits) {
+  PointSheet& p = work_.points;
+  const LinearRgb own = material.emits ? material.emission.rgb : LinearRgb{0.0};
+  for (int k = 0; k < 3; ++k) std::fill_n(p.rgb[k], p.padded, own[k]);
+  for (std::size_t i = 0; i < tracer_.scene().lights.size(); ++i) {
+    LaneReflection reflection;
+    if (!light_arrives(i, occupant, effects, material, hits, reflection)) continue;
+    fill_diffuse(i, material_index);
+    sheets_.kernels().add_light(reflection, p);
+  }
+  const double gamma = tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].from_camera.gamma();
+  sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, p);
+}
+
+void SheetShader::light_spectra(const Occupant& occupant, const Material& material, const Effects& effects,
+                                std::span<const Hit> hits) {
+  PointSheet& p = work_.points;
+  const std::size_t n = scratch_.wavelengths.size();
+  std::vector<double>& radiance = scratch_.sheet_radiance;
+  std::vector<double>& reflectance = scratch_.sheet_reflectance;
+  radiance.resize(n * sheet_size);
+  reflectance.resize(n * sheet_size);
+  const auto row = [n](std::vector<double>& all, int lane) {
+    return all.begin() + static_cast<std::ptrdiff_t>(n) * lane;
+  };
+  const auto wavelengths_of = [&](int lane) {
+    const DopplerFactor<Camera, Rest> doppler{p.doppler[lane]};
+    for (std::size_t k = 0; k < n; ++k) {
+      scratch_.wavelengths[k] = wavelength_at_origin(doppler, tracer_.wavelengths().nm()[k]);
+    }
+  };
+  for (int lane = 0; lane < p.count; ++lane) {
+    wavelengths_of(lane);
+    begin_spectrum(material, p.u[lane], p.v[lane], scratch_);
+    std::copy(scratch_.radiance.begin(), scratch_.radiance.end(), row(radiance, lane));
+    std::copy(scratch_.reflectance.begin(), scratch_.reflectance.end(), row(reflectance, lane));
+  }
+  for (std::size_t i = 0; i < tracer_.scene().lights.size(); ++i) {
+    LaneReflection reflection;
+    if (!light_arrives(i, occupant, effects, material, hits, reflection)) continue;
+    for (int lane = 0; lane < p.count; ++lane) {
+      if (!(p.lit[lane] > 0.0)) continue;
+      wavelengths_of(lane);
+      std::copy_n(row(radiance, lane), n, scratch_.radiance.begin());
+      std::copy_n(row(reflectance, lane), n, scratch_.reflectance.begin());
+      add_spectrum(tracer_.scene().lights[i], {p.lamp_doppler[lane]}, p.irradiance[lane], p.specular[lane],
+                   scratch_);
+      std::copy(scratch_.radiance.begin(), scratch_.radiance.end(), row(radiance, lane));
+    }
+  }
+  const double gamma = tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].from_camera.gamma();
+  for (int lane = 0; lane < p.count; ++lane) {
+    const DopplerFactor<Camera, Rest> doppler{p.doppler[lane]};
+    const double factor =
+        radiance_factor(doppler, gamma, effects.towards_camera()) * wavelength_density_factor(doppler);
+    put(factor * tracer_.wavelengths().film(&*row(radiance, lane)), p.rgb, lane);
+  }
+}
+
+bool SheetShader::shade(const Occupant& occupant, const Effects& effects, std::span<const Hit> hits) {
+  work_.points.frame = occupant.frame;
+  const int index = resolve(occupant, hits);
+  if (index < 0) return false;
+  const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
+  if (tracer_.is_spectral() && effects.doppler) {
+    light_spectra(occupant, material, effects, hits);
+  } else {
+    light_rgb(occupant, material, index, effects, hits);
+  }
+  return true;
+}
+
+}  // namespace backlight

@@ -1,0 +1,84 @@
+// Light on the points of a sheet: what illumination.cpp and shading.cpp do for one.
+#pragma once
+
+#include <span>
+
+#include "sheet_scene.h"
+
+namespace backlight {
+
+/// Working memory of one thread, besides Scratch.
+struct SheetScratch {
+  explicit SheetScratch(const SheetScene& scene, std::size_t lights);
+
+  struct TileSheet {
+    SheetRays rays;
+    const Effects* effects = nullptr;
+    Bundle bundle;
+    int place[sheet_size];  ///< index of the pixel in the tile
+    Hit hit[sheet_size];    ///< of surfaces that take one ray at a time
+  };
+  std::vector<TileSheet> sheets;
+  std::vector<FirstHit> far_hits;     ///< by place: of frames that take one ray at a time
+  ConeStore tile_cones;               ///< what the whole tile may meet
+  ConeStore sheet_cones;              ///< what one sheet may meet
+  std::vector<LampStore> tile_lamps;  ///< by light: what may shade any of the tile's hits
+  LampStore chunk_lamps;
+  std::vector<LaneCone> lamp_cones;
+  // Hits sorted by what was hit:
+  struct Group {
+    int who;
+    int count;
+    int next;
+  };
+  std::vector<int> group_of;  ///< by occupant: index of its group, or -1
+  std::vector<Group> groups;
+  std::vector<int> order;  ///< sheet * sheet_size + lane
+  PointSheet points;
+};
+
+/// Shades sheets of points of one image.
+class SheetShader {
+ public:
+  SheetShader(const Tracer& tracer, const SheetScene& sheets, int eye, SheetScratch& work, Scratch& scratch)
+      : tracer_(tracer), sheets_(sheets), eye_(eye), work_(work), scratch_(scratch) {}
+
+  /// Finds for each light what may shade the hits of the sheets with these effects.
+  void begin_tile(const Effects& effects);
+
+  /// The colours of work.points, of one surface, into points.rgb. False where they are of several materials:
+  /// then the points are known, but not the colours.
+  bool shade(const Occupant& occupant, const Effects& effects, std::span<const Hit> hits);
+
+  /// The camera ray of a lane of work.points.
+  [[nodiscard]] CameraRay camera_ray_of(int lane) const;
+
+ private:
+  int resolve(const Occupant& occupant, std::span<const Hit> hits);
+  int resolve_one_by_one(const Occupant& occupant, std::span<const Hit> hits);
+  [[nodiscard]] LaneLamp lane_lamp(std::size_t light, int frame) const;
+  void fill_strength(const Light& light, std::size_t index);
+  void fill_diffuse(std::size_t light, int material);
+  void shadow(std::size_t light, const Occupant& occupant, std::span<const Hit> hits);
+  void try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone, const Occupant& lit,
+                    std::span<const Hit> hits);
+  void try_one_by_one(std::size_t light, const Occupant& occluder, const Occupant& lit,
+                      std::span<const Hit> hits);
+  void shadow_of_distant(std::size_t light, const Occupant& occupant, std::span<const Hit> hits);
+  void light_rgb(const Occupant& occupant, const Material& material, int material_index,
+                 const Effects& effects, std::span<const Hit> hits);
+  bool light_arrives(std::size_t light, const Occupant& occupant, const Effects& effects,
+                     const Material& material, std::span<const Hit> hits, LaneReflection& reflection);
+  void light_spectra(const Occupant& occupant, const Material& material, const Effects& effects,
+                     std::span<const Hit> hits);
+
+  const Tracer& tracer_;
+  const SheetScene& sheets_;
+  int eye_;
+  SheetScratch& work_;
+  Scratch& scratch_;
+};
+
+LaneBrightness lane_brightness(const BrightnessSwitches& on);
+
+}  // namespace backlight

@@ -1,0 +1,243 @@
+// Sheets of rays against the law: one ray at a time, every object asked. The same bits, or it is a defect.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "backlight/base/lane_power.h"
+#include "rendering.h"
+
+namespace backlight::test {
+namespace {
+
+std::string vec(double x, double y, double z) {
+  char text[120];
+  std::snprintf(text, sizeof text, "[%.17g, %.17g, %.17g]", x, y, z);
+  return text;
+}
+
+struct Field {
+  int spheres = 10;
+  double gamma = 1.0;  ///< up to this
+  int frames = 0;      ///< share so many; 0: each its own
+  int width = 96;
+  int height = 64;
+  std::string film;
+  std::string camera;
+  std::string top;
+  std::string more;
+  double density = 1.0;
+};
+
+// Spheres in front of the camera, placed so that it sees them where they would rest.
+std::string scene_of(const Field& f) {
+  std::mt19937 random(7);
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
+  std::string s =
+      "[film]\nresolution = [" + std::to_string(f.width) + ", " + std::to_string(f.height) +
+      "]\naovs = [\"Z\", \"doppler\", \"emissionTime\", \"properTime\", \"P\", \"N\", \"objectId\"]\n" +
+      f.film + "\n" + f.top + "\n[camera]\nposition = [0, 1, -9]\nlook_at = [0, 0, 0]\ntime = 0\n" +
+      f.camera +
+      "\n[[light]]\nposition = [-6, 9, -7]\nintensity = 200\n"
+      "[[object]]\nshape = \"plane\"\nposition = [0, -1.5, 0]\n"
+      "material = { color = [0.8, 0.8, 0.8], specular = 0.4, shininess = 40 }\n";
+  std::vector<Vec3> shared;
+  const auto velocity = [&] {
+    const double g = uniform(1.0, f.gamma);
+    const double v = std::sqrt((1.0 - 1.0 / g) * (1.0 + 1.0 / g));
+    const double z = uniform(-1, 1), a = uniform(0, 6.283185), r = std::sqrt(1 - z * z);
+    return v * Vec3(r * std::cos(a), r * std::sin(a), z);
+  };
+  for (int i = 0; i < f.frames; ++i) shared.push_back(velocity());
+  for (int i = 0; i < f.spheres; ++i) {
+    const Vec3 x{uniform(-5, 5), uniform(-1.2, 3), uniform(-4, 8)};
+    const Vec3 v = f.frames > 0 ? shared[static_cast<std::size_t>(i % f.frames)] : velocity();
+    const Vec3 now = x + v * glm::length(x - Vec3{0, 1, -9});
+    const double radius = f.density * uniform(0.2, 0.5) * std::pow(30.0 / (f.spheres + 20), 1.0 / 3.0);
+    s += "[[object]]\nshape = \"sphere\"\nradius = " + std::to_string(radius) +
+         "\nposition = " + vec(now.x, now.y, now.z) + "\n";
+    if (f.gamma > 1.0) s += "beta = " + vec(v.x, v.y, v.z) + "\n";
+    s += "material = { color = " + vec(uniform(0, 1), uniform(0, 1), uniform(0, 1)) +
+         ", specular = 0.3, shininess = 30 }\n";
+  }
+  return s + f.more;
+}
+
+std::size_t different_values(const Image& a, const Image& b) {
+  std::size_t different = 0;
+  for (std::size_t channel = 0; channel < a.channel_count(); ++channel) {
+    const auto x = a.plane(channel), y = b.plane(channel);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      different += std::memcmp(&x[i], &y[i], sizeof x[i]) != 0 ? 1 : 0;
+  }
+  return different;
+}
+
+void expect_the_law(const std::string& scene, const RenderChoices& choices = {}) {
+  RenderChoices law = choices;
+  law.path = RayPath::one_by_one;
+  const Rendering expected = render_text(scene, law);
+  for (const InstructionSet set : {InstructionSet::widest, InstructionSet::baseline}) {
+    RenderChoices sheets = choices;
+    sheets.instructions = set;
+    const Rendering got = render_text(scene, sheets);
+    EXPECT_EQ(different_values(expected.image, got.image), 0u) << "instruction set " << static_cast<int>(set);
+    EXPECT_EQ(expected.statistics.rays.primary, got.statistics.rays.primary);
+    EXPECT_EQ(expected.statistics.rays.shadow, got.statistics.rays.shadow);
+  }
+}
+
+const RenderChoices three_colours{.overrides = {"effects.doppler=false"}};
+
+class SheetsOfSpheres : public testing::TestWithParam<std::tuple<int, double>> {};
+
+TEST_P(SheetsOfSpheres, AreTheLaw) {
+  const auto [spheres, gamma] = GetParam();
+  const int size = spheres > 500 ? 48 : 96;
+  expect_the_law(scene_of({.spheres = spheres, .gamma = gamma, .width = size, .height = size / 3 * 2}),
+                 three_colours);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fields, SheetsOfSpheres,
+                         testing::Combine(testing::Values(10, 200, 1000),
+                                          testing::Values(1.0, 1.2, 3.0, 30.0, 1e4)));
+
+TEST(Sheets, AreTheLawWithSpectra) {
+  expect_the_law(scene_of({.spheres = 40, .gamma = 3.0, .width = 48, .height = 32}));
+}
+
+TEST(Sheets, AreTheLawInSharedFrames) {
+  for (const int frames : {1, 8}) {
+    expect_the_law(scene_of({.spheres = 300, .gamma = 2.0, .frames = frames, .width = 48, .height = 32}),
+                   three_colours);
+  }
+}
+
+TEST(Sheets, AreTheLawInEveryProjection) {
+  for (const char* projection : {"equirectangular", "mercator", "fisheye"}) {
+    expect_the_law(scene_of({.spheres = 60,
+                             .gamma = 3.0,
+                             .width = 64,
+                             .height = 48,
+                             .camera = std::string("projection = \"") + projection + "\"\n"}),
+                   three_colours);
+  }
+}
+
+TEST(Sheets, AreTheLawForAMovingCameraAndManySamples) {
+  expect_the_law(scene_of({.spheres = 60,
+                           .gamma = 3.0,
+                           .width = 40,
+                           .height = 30,
+                           .film = "samples = 5",
+                           .camera = "beta = [0.3, -0.1, 0.6]"}),
+                 three_colours);
+}
+
+TEST(Sheets, AreTheLawForStereoPairs) {
+  for (const char* projection : {"perspective", "equirectangular"}) {
+    expect_the_law(scene_of({.spheres = 60,
+                             .gamma = 3.0,
+                             .width = 40,
+                             .height = 30,
+                             .camera = std::string("stereo = { separation = 0.8 }\nprojection = \"") +
+                                       projection + "\"\n"}),
+                   three_colours);
+  }
+}
+
+TEST(Sheets, AreTheLawForCrops) {
+  RenderChoices crop = three_colours;
+  crop.crop = PixelBox{13, 7, 61, 50};
+  expect_the_law(scene_of({.spheres = 60, .gamma = 3.0}), crop);
+}
+
+TEST(Sheets, AreTheLawWhereEffectsDiffer) {
+  const std::string regions =
+      "[[effects.region]]\nrect = [0.3, 0.2, 0.7, 0.9]\nlight_delay = false\n"
+      "[[effects.region]]\nrect = [0.5, 0.4, 0.8, 0.7]\nsearchlight = \"paper\"\ndoppler = false\n";
+  for (const double gamma : {3.0, 1e4}) {
+    expect_the_law(scene_of({.spheres = 80, .gamma = gamma, .width = 48, .height = 32, .top = regions}));
+  }
+}
+
+// Every kind of surface, material and light at once.
+TEST(Sheets, AreTheLawForAllThereIs) {
+  const std::string more = R"toml(
+[[light]]
+type = "distant"
+direction = [0.3, -1, 0.5]
+irradiance = 0.7
+[[light]]
+position = [3, 4, -5]
+beta = [0.2, 0.3, 0]
+intensity = "100 + 60*sin(3*t)"
+[[light]]
+type = "ambient"
+radiance = 0.05
+[[object]]
+shape = "torus"
+major = 1
+minor = 0.3
+rotate = [50, 20, 0]
+position = [1, 1, -1]
+beta = [0.5, 0.1, 0.2]
+[[object]]
+shape = "box"
+size = [1, 2, 0.5]
+rotate = [20, 30, 10]
+position = [-2, 1, 0]
+beta = [0.5, 0.1, 0.2]
+material = { emission = 0.2 }
+[[object]]
+shape = "cylinder"
+radius = 0.4
+height = 2
+position = [2, 0, 2]
+material = { checker = { colors = [[0.8, 0.8, 0.8], [0.3, 0.1, 0.1]], size = 0.1 } }
+[[object]]
+shape = "sphere"
+radius = 0.8
+scale = [1, 0.5, 1.5]
+rotate = [10, 20, 30]
+position = [-3, 0, -2]
+beta = [0, 0.4, 0.4]
+material = { checker = { colors = [[0.8, 0.8, 0.1], [0.1, 0.1, 0.9]], size = 0.1 } }
+[[object]]
+shape = "plane"
+position = [0, 0, 30]
+rotate = [80, 10, 0]
+beta = [0.1, 0, 0.2]
+material = { checker = { colors = [[0.8, 0.2, 0.2], [0.2, 0.2, 0.9]], size = 2 } }
+[[object]]
+shape = "cone"
+radius = 0.5
+top_radius = 0.1
+height = 1
+position = [0, 0, -3]
+gamma = 1e5
+along = [0.1, 0, 1]
+[background]
+color = [0.1, 0.2, 0.4]
+stars = { count = 500, seed = 4 }
+)toml";
+  const Field all{.spheres = 90, .gamma = 2.0, .width = 60, .height = 40, .more = more};
+  expect_the_law(scene_of(all));
+  expect_the_law(scene_of(all), three_colours);
+}
+
+TEST(LanePower, IsTheSameForAnyWidth) {
+  for (int i = 1; i < 2000; ++i) {
+    const double base = i / 2000.0, exponent = 0.37 * i;
+    const double one = power(base, exponent);
+    EXPECT_EQ(power(Lanes<2>(base), Lanes<2>(exponent)).v[1], one);
+    const double exact = std::pow(base, exponent);
+    const double bound = (4.0 * std::abs(exponent * std::log2(base)) + 8.0) * 0x1p-53;
+    if (exact <= 1e-300) continue;
+    EXPECT_LE(std::abs(one / exact - 1.0), bound + 0x1p-53) << base << ' ' << exponent;
+  }
+}
+
+}  // namespace
+}  // namespace backlight::test
