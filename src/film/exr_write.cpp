@@ -156,7 +156,7 @@ class ExrWriter::Implementation {
     }
   }
 
-  static constexpr int band_rows = 16;  ///< the rows of one ZIP chunk
+  static constexpr int band_rows = zip_chunk_rows;
 
   AtomicFile file_;
   CheckedStream stream_;
