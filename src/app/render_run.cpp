@@ -77,7 +77,7 @@ ImageOrigin ImageRecogniser::origin(const PlannedImage& image) const {
                      description_->overrides,
                      {}};
   if (const auto facts = image_facts(*description_, image.request)) {
-    origin.identity = image_identity(origin, digests_, *facts, options_->storage);
+    origin.identity = image_identity(origin, digests_, *facts);
   }
   return origin;
 }
@@ -87,7 +87,7 @@ std::string ImageRecogniser::identity(const PlannedImage& image) const {
 }
 
 bool ImageRecogniser::is_complete(const PlannedImage& image) const {
-  return is_complete_image(image.exr, identity(image), options_->crop);
+  return is_complete_image(image.exr, identity(image), options_->crop, options_->storage);
 }
 
 RenderRun::RenderRun(const RenderOptions& options, SceneSession& session, const ImageRecogniser& recogniser,

@@ -14,7 +14,6 @@
 #include "backlight/base/files.h"
 #include "backlight/film/exr.h"
 #include "exr_header.h"
-#include "half_range.h"
 
 namespace backlight {
 namespace {

@@ -3,11 +3,6 @@
 #include <cmath>
 
 namespace backlight {
-namespace {
-
-constexpr float greatest_half = 65504.0F;
-
-}  // namespace
 
 ImageFaults faults_of(const Image& image) {
   ImageFaults faults;
@@ -20,7 +15,7 @@ ImageFaults faults_of(const Image& image) {
         const float value = image.at(channel, x, y);
         finite &= std::isfinite(value);
         const bool half = image.layout().channels[channel].precision == ChannelPrecision::half;
-        fits &= !half || !(std::abs(value) > greatest_half);
+        fits &= !half || fits_half(value);
       }
       if (!finite && faults.non_finite++ == 0) faults.first_non_finite = {x, y};
       if (finite && !fits) ++faults.beyond_half;

@@ -89,14 +89,25 @@ TEST_F(PartialFile, IsRefusedWhenItIsOfSomethingElse) {
 TEST_F(PartialFile, IsNotACompleteImage) {
   PartialImage partial = empty();
   ASSERT_TRUE(write_exr(folder / "a.exr", partial.image, header).ok());
-  EXPECT_TRUE(is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 12, 25}));
-  EXPECT_FALSE(is_complete_image(folder / "a.exr", "me", std::nullopt));
-  EXPECT_FALSE(is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 13, 25}));
-  EXPECT_FALSE(is_complete_image(folder / "a.exr", "you", PixelBox{2, 3, 12, 25}));
-  EXPECT_FALSE(is_complete_image(folder / "b.exr", "me", PixelBox{2, 3, 12, 25}));
-  EXPECT_FALSE(is_complete_image(folder, "me", PixelBox{2, 3, 12, 25}));
+  EXPECT_TRUE(is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 12, 25}, ColourStorage::automatic));
+  EXPECT_FALSE(is_complete_image(folder / "a.exr", "me", std::nullopt, ColourStorage::automatic));
+  EXPECT_FALSE(is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 13, 25}, ColourStorage::automatic));
+  EXPECT_FALSE(is_complete_image(folder / "a.exr", "you", PixelBox{2, 3, 12, 25}, ColourStorage::automatic));
+  EXPECT_FALSE(is_complete_image(folder / "b.exr", "me", PixelBox{2, 3, 12, 25}, ColourStorage::automatic));
+  EXPECT_FALSE(is_complete_image(folder, "me", PixelBox{2, 3, 12, 25}, ColourStorage::automatic));
+  const auto is_complete = [&](ColourStorage storage) {
+    return is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 12, 25}, storage);
+  };
+  EXPECT_FALSE(is_complete(ColourStorage::always_float));
+  ASSERT_TRUE(write_exr(folder / "a.exr", partial.image, header, ColourStorage::always_float).ok());
+  EXPECT_TRUE(is_complete(ColourStorage::always_float));
+  EXPECT_FALSE(is_complete(ColourStorage::automatic));
+  partial.image.at(0, 5, 5) = 70000.0F;
+  ASSERT_TRUE(write_exr(folder / "a.exr", partial.image, header).ok());
+  EXPECT_TRUE(is_complete(ColourStorage::always_float));
+  EXPECT_TRUE(is_complete(ColourStorage::automatic));
   ASSERT_TRUE(write_partial(folder / "a.exr", partial, header).ok());
-  EXPECT_FALSE(is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 12, 25}));
+  EXPECT_FALSE(is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 12, 25}, ColourStorage::automatic));
 }
 
 TEST(ImageFaults, AreCountedByPixel) {
@@ -119,12 +130,11 @@ ImageFacts facts() {
 
 TEST(ImageIdentity, DependsOnEverythingThatDecidesTheBytes) {
   const ImageOrigin origin{"Backlight 1", "a.toml", "0123", {"c=2"}, {}};
-  const auto usual = ColourStorage::automatic;
-  std::vector<std::string> all{image_identity(origin, {"d"}, facts(), usual)};
+  std::vector<std::string> all{image_identity(origin, {"d"}, facts())};
   const auto with_origin = [&](auto change) {
     ImageOrigin other = origin;
     change(other);
-    all.push_back(image_identity(other, {"d"}, facts(), usual));
+    all.push_back(image_identity(other, {"d"}, facts()));
   };
   with_origin([](ImageOrigin& o) { o.software = "Backlight 2"; });
   with_origin([](ImageOrigin& o) { o.scene_sha256 = "0124"; });
@@ -134,7 +144,7 @@ TEST(ImageIdentity, DependsOnEverythingThatDecidesTheBytes) {
   const auto with_facts = [&](auto change) {
     ImageFacts other = facts();
     change(other);
-    all.push_back(image_identity(origin, {"d"}, other, usual));
+    all.push_back(image_identity(origin, {"d"}, other));
   };
   with_facts([](ImageFacts& f) { f.time = std::nextafter(0.1, 1.0); });
   with_facts([](ImageFacts& f) { f.frame = 3.0; });
@@ -144,15 +154,14 @@ TEST(ImageIdentity, DependsOnEverythingThatDecidesTheBytes) {
   with_facts([](ImageFacts& f) { f.film.samples = 33; });
   with_facts([](ImageFacts& f) { f.film.seed = 33; });
   with_facts([](ImageFacts& f) { f.film.aovs = {"Z", "N"}; });
-  all.push_back(image_identity(origin, {"d", "d"}, facts(), usual));
-  all.push_back(image_identity(origin, {}, facts(), usual));
-  all.push_back(image_identity(origin, {"d"}, facts(), ColourStorage::always_float));
+  all.push_back(image_identity(origin, {"d", "d"}, facts()));
+  all.push_back(image_identity(origin, {}, facts()));
   std::sort(all.begin(), all.end());
   EXPECT_EQ(std::unique(all.begin(), all.end()), all.end());
 
   ImageOrigin renamed = origin;
   renamed.scene_file = "b.toml";
-  EXPECT_EQ(image_identity(renamed, {"d"}, facts(), usual), image_identity(origin, {"d"}, facts(), usual));
+  EXPECT_EQ(image_identity(renamed, {"d"}, facts()), image_identity(origin, {"d"}, facts()));
 }
 
 }  // namespace
