@@ -22,7 +22,9 @@ void add(std::string& list, const FilmSettings& film) {
   add(list, "height", film.height);
   add(list, "samples", film.samples);
   add(list, "seed", film.seed);
-  for (const std::string& aov : film.aovs) add(list, "aov", aov);
+  std::vector<std::string> aovs = film.aovs;
+  std::ranges::sort(aovs);  // a file has its channels in alphabetical order
+  for (const std::string& aov : aovs) add(list, "aov", aov);
 }
 
 // Of a channel as the file names it: "R", "right.R".
