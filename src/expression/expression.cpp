@@ -61,6 +61,36 @@ Dual Expression::evaluate(std::span<const Dual> values) const {
   return evaluate_tape<Dual>(compiled_->tape, compiled_->variables, values);
 }
 
+Gradient Expression::evaluate(std::span<const Gradient> values) const {
+  return evaluate_tape<Gradient>(compiled_->tape, compiled_->variables, values);
+}
+
+std::size_t Expression::variables() const {
+  return compiled_->variables;
+}
+
+Expression Expression::bind(std::size_t first, std::span<const double> values) const {
+  if (first + values.size() < compiled_->variables) {
+    throw std::invalid_argument("Expression::bind: a variable has no value");
+  }
+  Graph graph;
+  std::vector<Graph::Node> node(compiled_->tape.registers);  // what each register holds
+  for (const Instruction& step : compiled_->tape.instructions) {
+    Graph::Node& out = node[step.out];
+    if (step.operation == Operation::constant) {
+      out = graph.constant(compiled_->tape.constants[step.a]);
+    } else if (step.operation == Operation::variable) {
+      out = step.a < first ? graph.variable(step.a) : graph.constant(values[step.a - first]);
+    } else if (step.operation == Operation::pow) {
+      out = graph.power(node[step.a], node[step.b]);
+    } else {
+      out = graph.apply(step.operation, node[step.a], node[step.b]);
+    }
+  }
+  const std::size_t left = std::min(first, compiled_->variables);
+  return Expression(std::make_shared<const Compiled>(Compiled{compiled_->text, graph.tape(node[0]), left}));
+}
+
 bool Expression::uses(std::size_t variable) const {
   const auto& steps = compiled_->tape.instructions;
   return std::any_of(steps.begin(), steps.end(), [variable](const Instruction& step) {

@@ -50,16 +50,13 @@ Graph::Node Graph::power(Node a, Node b) {
   const bool multiplies =
       is_constant(b) && std::abs(value(b)) <= largest_multiplied_exponent && std::floor(value(b)) == value(b);
   if (!multiplies) return apply(Operation::pow, a, b);
-  const int exponent = static_cast<int>(value(b));
-  if (exponent == 0) return constant(1.0);  // as pow does, for every a
-  // Square and multiply, from the highest bit down: x^5 = ((x²)²) x.
-  const auto n = static_cast<unsigned>(std::abs(exponent));
+  const double exponent = value(b);
+  const double n = std::abs(exponent);
+  if (n == 0.0) return constant(1.0);  // as pow does, for every a
   Node result = a;
-  for (int bit = static_cast<int>(std::bit_width(n)) - 2; bit >= 0; --bit) {
-    result = apply(Operation::square, result);
-    if ((n >> bit & 1U) != 0) result = apply(Operation::multiply, result, a);
-  }
-  return exponent < 0 ? apply(Operation::divide, constant(1.0), result) : result;
+  if (n == 2.0) result = apply(Operation::square, a);
+  if (n > 2.0) result = apply(Operation::integer_power, a, constant(n));
+  return exponent < 0.0 ? apply(Operation::divide, constant(1.0), result) : result;
 }
 
 std::vector<Graph::Node> Graph::last_uses(Node root) const {

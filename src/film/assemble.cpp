@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "half_range.h"
+
 namespace backlight {
 namespace {
 

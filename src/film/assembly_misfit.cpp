@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <set>
 #include <string_view>
-#include <vector>
 
 #include "assembly_cover.h"
 #include "backlight/film/assemble.h"
@@ -32,16 +31,12 @@ std::string value_text(const ExrHeader& header, std::string_view name) {
   return text_of(attribute->value);
 }
 
-/// The identity, which differs when anything does, comes last: any other difference tells more.
-std::vector<std::string> attribute_names(const ExrHeader& a, const ExrHeader& b) {
-  const std::string identity = "backlight/identity";
+std::set<std::string> attribute_names(const ExrHeader& a, const ExrHeader& b) {
   std::set<std::string> names;
   for (const ExrHeader* header : {&a, &b}) {
     for (const ExrAttribute& attribute : header->attributes) names.insert(attribute.name);
   }
-  std::vector<std::string> ordered(names.begin(), names.end());
-  std::ranges::stable_partition(ordered, [&](const std::string& name) { return name != identity; });
-  return ordered;
+  return names;
 }
 
 /// "NAME is X, and Y in FIRST", or nothing when both are the same.

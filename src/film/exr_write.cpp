@@ -14,6 +14,7 @@
 #include "backlight/base/files.h"
 #include "backlight/film/exr.h"
 #include "exr_header.h"
+#include "half_range.h"
 
 namespace backlight {
 namespace {
@@ -155,7 +156,7 @@ class ExrWriter::Implementation {
     }
   }
 
-  static constexpr int band_rows = zip_chunk_rows;
+  static constexpr int band_rows = 16;  ///< the rows of one ZIP chunk
 
   AtomicFile file_;
   CheckedStream stream_;

@@ -7,9 +7,9 @@ namespace backlight {
 namespace {
 
 // In the order of ShapeKind.
-constexpr std::array<const ShapeMethods*, 9> table{&sphere_methods, &box_methods,     &cylinder_methods,
-                                                   &cone_methods,   &torus_methods,   &disk_methods,
-                                                   &plane_methods,  &quadric_methods, &csg_methods};
+constexpr std::array<const ShapeMethods*, 10> table{
+    &sphere_methods, &box_methods,   &cylinder_methods, &cone_methods, &torus_methods,
+    &disk_methods,   &plane_methods, &quadric_methods,  &csg_methods,  &implicit_methods};
 
 }  // namespace
 

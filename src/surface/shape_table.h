@@ -100,7 +100,7 @@ inline Crossings crossings(const Shape& shape, const LocalLine& line, double lam
 }
 
 extern const ShapeMethods sphere_methods, box_methods, cylinder_methods, cone_methods, torus_methods,
-    disk_methods, plane_methods, quadric_methods, csg_methods;
+    disk_methods, plane_methods, quadric_methods, csg_methods, implicit_methods;
 
 // Words and numbers that several shapes share.
 

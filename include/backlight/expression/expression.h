@@ -60,6 +60,17 @@ class Expression {
   /// The value, and its derivative when each variable changes at the rate of its own `derivative`.
   [[nodiscard]] Dual evaluate(std::span<const Dual> values) const;
 
+  /// The value and its gradient; give each variable its own rates of change.
+  [[nodiscard]] Gradient evaluate(std::span<const Gradient> values) const;
+
+  /// How many variables it was parsed with.
+  [[nodiscard]] std::size_t variables() const;
+
+  /// The same formula with numbers in the place of its last variables, those from `first` on. Takes
+  /// (variables - first) values; throws std::invalid_argument when they are fewer. What depends on them alone
+  /// is folded into constants, and a whole exponent among them gets the treatment of a written one.
+  [[nodiscard]] Expression bind(std::size_t first, std::span<const double> values) const;
+
   /// Whether the value depends on the variable of this index.
   [[nodiscard]] bool uses(std::size_t variable) const;
 

@@ -1,6 +1,8 @@
 // The compiled form of an expression, and its one evaluator for every number type.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -28,8 +30,8 @@ struct Tape {
   std::size_t registers = 1;
 };
 
-/// One operation on numbers of type N. N needs + - * /, and the functions of the table found by
-/// argument-dependent lookup (square, minimum, maximum and modulo among them).
+/// One operation on numbers of type N. N is made from a double by N(x), has + - * /, and the functions of the
+/// table found by argument-dependent lookup (square, minimum, maximum and modulo among them).
 template <class N>
 N apply(Operation operation, const N& a, [[maybe_unused]] const N& b) {
   using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cos, std::cosh, std::exp,
@@ -47,35 +49,78 @@ N apply(Operation operation, const N& a, [[maybe_unused]] const N& b) {
   return a;
 }
 
-/// The partial derivatives of `operation` at (a, b), where its value is v.
+/// The partial derivatives of an operation.
+template <class N>
 struct Slopes {
-  double along_a;
-  double along_b;
+  N along_a;
+  N along_b;
 };
-inline Slopes slopes(Operation operation, double a, [[maybe_unused]] double b, [[maybe_unused]] double v) {
+
+/// The partial derivatives of `operation` at (a, b), where its value is v. One that is not wanted is 0: an
+/// operand that does not change contributes nothing to a derivative, even where the slope along it is not
+/// finite. x^35 has no slope along its exponent at x < 0, and needs none.
+template <class N>
+Slopes<N> slopes(Operation operation, const N& a, [[maybe_unused]] const N& b, [[maybe_unused]] const N& v,
+                 bool wanted_a, bool wanted_b) {
+  using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cos, std::cosh, std::exp,
+      std::floor, std::log, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
   switch (operation) {
 #define BACKLIGHT_CASE(identifier, name, operands, value, da, db) \
   case Operation::identifier:                                     \
-    return {da, db};
+    return {wanted_a ? N(da) : N(0.0), operands == 2 && wanted_b ? N(db) : N(0.0)};
     BACKLIGHT_OPERATIONS(BACKLIGHT_CASE)
 #undef BACKLIGHT_CASE
     case Operation::constant:
     case Operation::variable:
       break;
   }
-  return {0.0, 0.0};
+  return {N(0.0), N(0.0)};
 }
 
-/// The chain rule. An operand that does not change contributes nothing, even where the slope along it is not
-/// finite: x^3 has no derivative along its exponent at x < 0, and needs none.
+/// The chain rule, for a value with any number of partial derivatives.
+template <class N, int count>
+struct Derivatives {
+  N value{0.0};
+  std::array<N, count> partial{};
+
+  Derivatives() = default;
+  explicit Derivatives(double constant) : value(constant) { partial.fill(N(0.0)); }
+  Derivatives(const N& v, const std::array<N, count>& p) : value(v), partial(p) {}
+
+  [[nodiscard]] bool changes() const {
+    return std::any_of(partial.begin(), partial.end(), [](const N& p) { return p != N(0.0); });
+  }
+};
+
+template <class N, int count>
+Derivatives<N, count> differentiate(Operation operation, const Derivatives<N, count>& a,
+                                    const Derivatives<N, count>& b) {
+  Derivatives<N, count> result(apply<N>(operation, a.value, b.value), {});
+  const bool a_changes = a.changes();
+  const bool b_changes = b.changes();
+  const Slopes<N> slope = slopes<N>(operation, a.value, b.value, result.value, a_changes, b_changes);
+  for (std::size_t i = 0; i < count; ++i) {
+    N sum(0.0);
+    if (a.partial[i] != N(0.0)) sum = sum + slope.along_a * a.partial[i];
+    if (b.partial[i] != N(0.0) && info(operation).operands == 2) sum = sum + slope.along_b * b.partial[i];
+    result.partial[i] = sum;
+  }
+  return result;
+}
+
+/// A value with its gradient in space, for normals.
+using Gradient = Derivatives<double, 3>;
+
+template <>
+inline Gradient apply<Gradient>(Operation operation, const Gradient& a, const Gradient& b) {
+  return differentiate(operation, a, b);
+}
+
 template <>
 inline Dual apply<Dual>(Operation operation, const Dual& a, const Dual& b) {
-  const double v = apply<double>(operation, a.value, b.value);
-  const Slopes slope = slopes(operation, a.value, b.value, v);
-  Dual result{v, 0.0};
-  if (a.derivative != 0.0) result.derivative += slope.along_a * a.derivative;
-  if (info(operation).operands == 2 && b.derivative != 0.0) result.derivative += slope.along_b * b.derivative;
-  return result;
+  const auto result =
+      differentiate<double, 1>(operation, {a.value, {a.derivative}}, {b.value, {b.derivative}});
+  return {result.value, result.partial[0]};
 }
 
 /// Runs a tape. `variables` holds what the tape's variables index; `registers` is room for at least

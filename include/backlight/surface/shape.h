@@ -10,10 +10,22 @@
 
 namespace backlight {
 
+class ImplicitFormula;
 class Solid;
 
 /// The kinds of surfaces. What each can do is in one table, src/surface/shape_table.h.
-enum class ShapeKind : std::uint8_t { sphere, box, cylinder, cone, torus, disk, plane, quadric, csg };
+enum class ShapeKind : std::uint8_t {
+  sphere,
+  box,
+  cylinder,
+  cone,
+  torus,
+  disk,
+  plane,
+  quadric,
+  csg,
+  implicit
+};
 
 /// A surface in local coordinates (y up, centred on the local origin), as a plain value. Make one with the
 /// functions below; they do not validate, problem() does.
@@ -21,6 +33,7 @@ struct Shape {
   ShapeKind kind = ShapeKind::sphere;
   std::array<double, 10> values{};       ///< the arguments of the function that made it, in their order
   std::shared_ptr<const Solid> solid{};  ///< csg: what it is made of (surface/solid.h)
+  std::shared_ptr<const ImplicitFormula> formula{};  ///< implicit (surface/implicit.h)
 };
 
 /// |x| = radius. Texture: u = 1/2 + atan2(x, z)/2pi, v = polar angle from +y over pi. So the +z axis pierces
@@ -57,6 +70,11 @@ Shape plane();
 /// c0 x² + c1 y² + c2 z² + c3 xy + c4 xz + c5 yz + c6 x + c7 y + c8 z + c9 = 0, infinite; the outside (where
 /// the normal points) is where the left side is positive. Texture: u = x, v = z as for the plane.
 Shape quadric(const std::array<double, 10>& coefficients);
+
+/// f = 0 inside the box from `low` to `high`; the outside (where the normal points) is where f > 0. The
+/// surface is open where the box cuts it; as a part of a solid, the box closes it. Parts: 0 the surface, 1..6
+/// such closing faces, as of a box. Texture: u = x, v = z.
+Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high);
 
 /// Whether the surface fits into no sphere (plane and quadric; an ellipsoid given as a quadric counts as
 /// such).

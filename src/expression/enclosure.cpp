@@ -1,0 +1,82 @@
+// Compiled with -frounding-math.
+#include "backlight/expression/enclosure.h"
+
+#include <array>
+#include <vector>
+
+#include "bounds.h"
+#include "bounds_parts.h"
+#include "rounding.h"
+
+namespace backlight {
+
+/// A value and its derivative along the line.
+using BoundsSlope = Derivatives<Bounds, 1>;
+
+template <>
+BoundsSlope apply<BoundsSlope>(Operation operation, const BoundsSlope& a, const BoundsSlope& b) {
+  return differentiate(operation, a, b);
+}
+
+namespace {
+
+constexpr std::size_t on_stack = 64;
+
+/// Not inlined: its arithmetic must not move past the change of rounding mode in its callers.
+template <class N>
+[[gnu::noinline]] N run_rounded(const Tape& tape, std::span<const N> variables) {
+  if (tape.registers <= on_stack) {
+    std::array<N, on_stack> registers;
+    return run<N>(tape, variables, registers);
+  }
+  std::vector<N> registers(tape.registers);
+  return run<N>(tape, variables, registers);
+}
+
+/// Calls `use` with `count` numbers made by `make`.
+template <class N, class Make>
+[[gnu::noinline]] N run_with(const Tape& tape, std::size_t count, const Make& make) {
+  constexpr std::size_t few = 16;
+  if (count <= few) {
+    std::array<N, few> variables;
+    for (std::size_t i = 0; i < count; ++i) variables[i] = make(i);
+    return run_rounded<N>(tape, std::span<const N>(variables.data(), count));
+  }
+  std::vector<N> variables(count);
+  for (std::size_t i = 0; i < count; ++i) variables[i] = make(i);
+  return run_rounded<N>(tape, variables);
+}
+
+/// A number that is not known to be anything.
+Interval unknown_if_undefined(const Interval& slope) {
+  return slope.continuity == Continuity::undefined ? Interval{-infinity, infinity, Continuity::partial}
+                                                   : slope;
+}
+
+}  // namespace
+
+Interval enclose(const Tape& tape, std::span<const Interval> variables) {
+  const RoundUp mode;
+  return run_with<Bounds>(tape, variables.size(), [&](std::size_t i) { return Bounds(variables[i]); })
+      .interval();
+}
+
+Interval enclose(const Tape& tape, const VariableLine& line, double s) {
+  const RoundUp mode;
+  return run_with<Bounds>(
+             tape, line.origin.size(),
+             [&](std::size_t i) { return Bounds(line.origin[i]) + Bounds(line.direction[i]) * Bounds(s); })
+      .interval();
+}
+
+IntervalSlope enclose(const Tape& tape, const VariableLine& line, double from, double to) {
+  const RoundUp mode;
+  const BoundsSlope result = run_with<BoundsSlope>(tape, line.origin.size(), [&](std::size_t i) {
+    const Bounds slope(line.direction[i]);
+    const Bounds value = Bounds(line.origin[i]) + slope * Bounds(-from, to, Continuity::continuous);
+    return BoundsSlope(value, {slope});
+  });
+  return {result.value.interval(), unknown_if_undefined(result.partial[0].interval())};
+}
+
+}  // namespace backlight

@@ -1,0 +1,116 @@
+// The roots of a formula along a line, in order, with none missed and none invented (docs/implicit.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "backlight/surface/implicit.h"
+
+namespace backlight {
+
+/// Variable i of the formula (x, y, z, time) is origin[i] + s direction[i] at the line's parameter s. The
+/// origin is best near the surface (local_line.h), and s a length.
+struct FormulaLine {
+  std::array<double, ImplicitFormula::variables> origin{};
+  std::array<double, ImplicitFormula::variables> direction{};
+};
+
+enum class RootKind : std::uint8_t {
+  crossing,   ///< one root, of which the sign of f before and after is certain
+  unresolved  ///< f is so close to 0 over the enclosure that rounding hides whether, or how often, it is 0
+};
+
+/// A root at s = t.
+struct Root {
+  double t = 0.0;
+  RootKind kind = RootKind::crossing;
+  /// The signs of f just before and after: -1 inside, 1 outside, 0 unknown (the edge of a domain). A crossing
+  /// has different ones. An unresolved root with equal signs is a touching (or a near miss, or an even number
+  /// of roots); with different signs there are an odd number of roots in the enclosure.
+  int sign_before = 0;
+  int sign_after = 0;
+  /// Where the root is. Of a crossing: the bracket in which it was found, where f is monotone; t is then as
+  /// good as double precision evaluation of f allows, which is a few ulp where f is well conditioned.
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+/// All roots in [from, to] in order.
+std::vector<Root> all_roots(const ImplicitFormula& f, const FormulaLine& line, double from, double to);
+
+/// The first root in [from, to]; kind `crossing` and t = infinity when there is none. Without allocations for
+/// formulas of ordinary size.
+Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to);
+
+inline bool found(const Root& root) {
+  return root.t < std::numeric_limits<double>::infinity();
+}
+
+/// How much work the last search was; for tests and charts.
+struct RootWork {
+  std::size_t cells = 0;   ///< pieces of the line over which f and its slope were enclosed
+  std::size_t points = 0;  ///< points at which f was enclosed
+  std::size_t polish = 0;  ///< evaluations of f and its slope in double precision
+};
+
+/// Walks the roots one after the other: `next` finds the first one beyond those found before.
+class RootWalk {
+ public:
+  RootWalk(const ImplicitFormula& f, const FormulaLine& line, double from, double to);
+
+  /// False: there are no more.
+  bool next(Root& root);
+
+  /// The sign of f where the walk began: -1, 1 or 0 if unknown.
+  [[nodiscard]] int sign_at_start() const { return sign_at_start_; }
+
+  [[nodiscard]] const RootWork& work() const { return work_; }
+
+ private:
+  /// f at one point: its sign if certain, and how far from 0 it certainly is.
+  struct PointValue {
+    int sign = 0;
+    double least = 0.0;
+    bool undetermined = false;  ///< continuous, and nothing but rounding hides the sign
+    bool hidden = false;        ///< the same, or nearly so
+  };
+
+  PointValue at(double s);
+  [[nodiscard]] bool hidden_at(double s) { return at(s).hidden; }
+  /// Moves s outwards (side = ±1) until the sign of f there is certain, if it soon is.
+  double settle(double s, int side);
+  [[nodiscard]] double smallest_cell(double from, double to) const;
+  void advance(double to, const PointValue& there);
+  bool end_zone(Root& root);
+  void add_to_zone(double to, const PointValue& there, bool core);
+  Root polished(double low, double high, int sign_low) const;
+  [[nodiscard]] bool wanted(const Root& root) const { return root.upper >= from_ && root.lower <= to_; }
+  enum class Verdict { advanced, crossing, split };
+  Verdict try_cell(double to, Root& root);
+  bool hidden_by_rounding(double to);
+
+  const ImplicitFormula& f_;
+  const FormulaLine line_;
+  const double from_, to_;
+  double start_, end_;  // a little wider than [from_, to_], at points where the sign of f is certain
+  double a_;            // everything before is done
+  double step_;         // of the next cell
+  PointValue at_a_;
+  int sign_at_start_ = 0;
+  // An unresolved root that is being collected. Close behind its last cell, rounding may hide f again: only a
+  // gap of its own length ends it.
+  bool in_zone_ = false;
+  double zone_start_ = 0.0;
+  double zone_core_ = 0.0;  // the end of its last cell in which rounding hides f all over
+  double zone_end_ = 0.0;
+  int sign_before_zone_ = 0;
+  int sign_after_zone_ = 0;
+  bool held_ = false;  // a crossing that was found while an unresolved root before it was open
+  Root held_root_;
+  std::size_t cells_left_;
+  mutable RootWork work_;
+};
+
+}  // namespace backlight

@@ -1,0 +1,157 @@
+// The implicit surface f = 0 inside its bounds, as a shape.
+#include <algorithm>
+
+#include "backlight/surface/implicit.h"
+#include "convex.h"
+#include "implicit_roots.h"
+
+namespace backlight {
+namespace {
+
+constexpr int caps = 1;  // parts 1..6: the faces of the bounds, where they cut the inside
+
+Vec3 low_of(const Shape& shape) {
+  return {shape.values[0], shape.values[1], shape.values[2]};
+}
+Vec3 high_of(const Shape& shape) {
+  return {shape.values[3], shape.values[4], shape.values[5]};
+}
+
+std::string problem_of(const Shape& shape) {
+  if (!shape.formula) return "a formula is missing";
+  if (shape.formula->expression().constant()) return "the formula is a constant: it makes no surface";
+  for (int i = 0; i < 3; ++i) {
+    const double low = low_of(shape)[i];
+    const double high = high_of(shape)[i];
+    if (!(std::isfinite(low) && std::isfinite(high) && low < high)) {
+      return "bounds must be finite, and the low corner below the high one";
+    }
+  }
+  return {};
+}
+
+double radius_of(const Shape& shape, const Vec3& factor) {
+  return glm::length(glm::max(glm::abs(low_of(shape)), glm::abs(high_of(shape))) * factor);
+}
+
+double extent_of(const Shape& shape, const Extent& e) {
+  const Vec3 reach = glm::max(glm::abs(low_of(shape)), glm::abs(high_of(shape)));
+  return reach.x * e.x + reach.y * e.y + reach.z * e.z;
+}
+
+Stretch inside_bounds(const Shape& shape, const LocalLine& line) {
+  const Vec3 centre = 0.5 * low_of(shape) + 0.5 * high_of(shape);
+  const Vec3 half = 0.5 * high_of(shape) - 0.5 * low_of(shape);
+  Stretch stretch;
+  for (int i = 0; i < 3; ++i) {
+    narrow_to_slab(stretch, line.point[i] - centre[i], line.direction[i], half[i], 2 * i + caps);
+  }
+  return stretch;
+}
+
+FormulaLine formula_line(const LocalLine& line) {
+  const Vec3& p = line.point;
+  const Vec3& d = line.direction;
+  return {{p.x, p.y, p.z, line.clock.start}, {d.x, d.y, d.z, line.clock.rate}};
+}
+
+Crossing crossing_of(const Root& root) {
+  return {root.t, 0, root.kind == RootKind::unresolved};
+}
+
+Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
+  Crossings result;
+  const Stretch stretch = inside_bounds(shape, line);
+  double from = stretch.in;
+  if (wanted == Wanted::first) {
+    from = std::max(from, (lambda_min - line.lambda_centre - line.lambda_shift) / line.lambda_per_length);
+  }
+  if (!(from <= stretch.out)) return result;
+  RootWalk walk(*shape.formula, formula_line(line), from, stretch.out);
+  Root root;
+  while (result.count < 4 && walk.next(root)) {
+    if (wanted == Wanted::first && !(line.lambda(root.t) > lambda_min)) continue;
+    result.list[result.count++] = crossing_of(root);
+    if (wanted == Wanted::first) break;
+  }
+  return result;
+}
+
+/// Where the bounds cut the inside, they close it.
+void profile_of(const Shape& shape, const LocalLine& line, SolidProfile& profile) {
+  profile.clear();
+  const Stretch stretch = inside_bounds(shape, line);
+  if (!(stretch.in < stretch.out)) return;
+  bool inside = false;
+  const auto become = [&](bool now, double t, int part) {
+    if (now != inside) profile.events.push_back({{t, part, false}, false});
+    inside = now;
+  };
+  RootWalk walk(*shape.formula, formula_line(line), stretch.in, stretch.out);
+  become(walk.sign_at_start() < 0, stretch.in, stretch.part_in);
+  for (Root root; walk.next(root);) {
+    const bool now = root.sign_after < 0;
+    // At the edge of a domain or behind a jump f may have changed its sign without a root.
+    become(root.sign_before < 0, root.lower, 0);
+    profile.events.push_back({crossing_of(root), now == inside});
+    inside = now;
+  }
+  become(false, stretch.out, stretch.part_out);
+}
+
+/// How far f's rounding hides its zero about an unresolved root, backwards along the line.
+double hidden_length(const ImplicitFormula& f, const LocalLine& line, double t, double size) {
+  double length = 4.0 * std::numeric_limits<double>::epsilon() * size;
+  while (length < size &&
+         f.sign(line.at(t - length), line.clock.start + (t - length) * line.clock.rate) == 0) {
+    length *= 2.0;
+  }
+  return length;
+}
+
+LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
+  const Vec3 p = line.at(crossing.t);
+  LocalPoint result{p, -line.direction, p.x, p.z};
+  if (crossing.part >= caps) {
+    const int face = crossing.part - caps;
+    result.gradient = Vec3{0.0};
+    result.gradient[face / 2] = face % 2 == 0 ? -1.0 : 1.0;
+    result.position[face / 2] = face % 2 == 0 ? low_of(shape)[face / 2] : high_of(shape)[face / 2];
+    return result;
+  }
+  const ImplicitFormula& f = *shape.formula;
+  const double size = glm::length(high_of(shape) - low_of(shape));
+  const double time = line.clock.start + crossing.t * line.clock.rate;
+  if (crossing.unresolved) {
+    result.error = hidden_length(f, line, crossing.t, size);
+    const double before = crossing.t - result.error;
+    const Vec3 gradient = f.gradient(line.at(before), line.clock.start + before * line.clock.rate);
+    if (glm::dot(gradient, gradient) > 0.0 && glm::dot(gradient, gradient) < infinite)
+      result.gradient = gradient;
+    return result;
+  }
+  const Vec3 gradient = f.gradient(p, time);
+  const double square = glm::dot(gradient, gradient);
+  if (!(square > 0.0 && square < infinite)) return result;
+  result.gradient = gradient;
+  const Vec3 step = gradient * (f.value(p, time) / square);
+  if (glm::length(step) < 1e-12 * size) result.position = p - step;
+  const Interval left = f.range(result.position, result.position, {time, time, Continuity::continuous});
+  result.error = std::min(2.0 * std::max(-left.lower, left.upper) / std::sqrt(square), 1e-3 * size);
+  result.u = result.position.x;
+  result.v = result.position.z;
+  return result;
+}
+
+}  // namespace
+
+const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",   true,     problem_of, radius_of,
+                                    extent_of,           crossings_of, point_of, profile_of};
+
+Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high) {
+  Shape shape{ShapeKind::implicit, {low.x, low.y, low.z, high.x, high.y, high.z}, {}, {}};
+  shape.formula = std::move(f);
+  return shape;
+}
+
+}  // namespace backlight
