@@ -176,8 +176,8 @@ void add_output_flags(CLI::App& app, RenderOptions& options) {
       ->group(group);
   add_flag(app, "--png", options.png, "write a PNG to look at beside each EXR")->group(group);
   add_value(app, "--stats", "FILE",
-            "write one JSON object for each image: time, rays, pixels that are not finite", parse_text,
-            [&options](std::string file) { options.statistics = file; })
+            "write one JSON object for each image, a line each: time, rays, pixels that are not finite...",
+            parse_text, [&options](std::string file) { options.statistics = file; })
       ->group(group);
 }
 
@@ -189,6 +189,32 @@ void add_animation_flags(CLI::App& app, RenderOptions& options) {
       ->group(group);
   add_value(app, "--time", "T", "one image at the scene time T, in seconds", parse_number,
             [&options](double time) { options.time = time; })
+      ->group(group);
+}
+
+void add_again_flags(CLI::App& app, RenderOptions& options) {
+  const char* group = "Going on, and sharing the work";
+  add_flag(
+      app, "--skip-existing,--no-clobber", options.skip_existing,
+      "skip an image whose file is complete and was made from the same scene, files, settings and version; "
+      "a file that was not is replaced")
+      ->group(group);
+  add_flag(
+      app, "--resume", options.resume,
+      "go on where an earlier run was stopped: skip as --skip-existing does, and finish NAME.partial.exr, "
+      "to the same bytes as without the stop")
+      ->group(group);
+  add_flag(
+      app, "--claim", options.claim,
+      "share the images with other processes, on this machine or others, that render into the same folder: "
+      "each is made once. NAME.exr.claim marks an image in hand. Skips as --skip-existing does, and waits "
+      "at the end for the images of others")
+      ->group(group);
+  add_value(app, "--claim-expires", "SECONDS",
+            "take over a claim that its process has not renewed for so long; default 60. A process of this "
+            "machine that is gone is not waited for",
+            whole(1, 86400),
+            [&options](std::int64_t seconds) { options.claim_expiry = std::chrono::seconds(seconds); })
       ->group(group);
 }
 
@@ -231,6 +257,7 @@ Parser render_parser() {
   add_flag(app, "--float", state->single, "32-bit colour")->group("Output");
   add_film_flags(app, state->scene.options.request, state->options);
   add_animation_flags(app, state->options);
+  add_again_flags(app, state->options);
   add_scene_flags(app, state->scene);
   add_run_flags(app, state->options);
   add_verbosity(app, state->scene.quiet, &state->scene.verbose);
@@ -239,6 +266,7 @@ Parser render_parser() {
     if (state->half && state->single) throw CLI::ValidationError("--half", "not together with --float");
     if (options.frames && options.time) throw CLI::ValidationError("--time", "not together with --frames");
     if (state->single) options.storage = ColourStorage::always_float;
+    options.skip_existing |= options.resume || options.claim;
     options.scene = state->scene.scene();
     options.verbosity = state->scene.verbosity();
     return options;
@@ -516,13 +544,16 @@ std::string one_blank_line(std::string text) {
 
 Command parse_command(const std::string& name, std::vector<std::string> arguments) {
   Parser parser = make_parser(name);
+  const std::vector<std::string> given = arguments;
   try {
     std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the end
     parser.app->parse(std::move(arguments));
     std::vector<std::string> extras = parser.app->remaining();
     std::erase(extras, "--");
     if (!extras.empty()) return unknown_argument(name, *parser.app, extras);
-    return parser.finish();
+    Command command = parser.finish();
+    if (auto* options = std::get_if<RenderOptions>(&command)) options->arguments = given;
+    return command;
   } catch (const CLI::CallForHelp&) {
     return Answer{one_blank_line(parser.app->help()), false};
   } catch (const CLI::ArgumentMismatch& error) {

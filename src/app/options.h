@@ -1,6 +1,7 @@
 // What was asked for on the command line, one structure a command.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -41,6 +42,11 @@ struct RenderOptions {
   std::filesystem::path statistics;  ///< empty: none
   bool dry_run = false;
   bool list_frames = false;
+  bool skip_existing = false;  ///< images whose file is complete and of the same identity; true with the next
+  bool resume = false;         ///< go on with partial images
+  bool claim = false;          ///< share the images with other processes through the folder
+  std::chrono::seconds claim_expiry{60};
+  std::vector<std::string> arguments;  ///< of the command line as given, for messages
 };
 
 struct CheckOptions {

@@ -1,6 +1,9 @@
 #include "render_plan.h"
 
+#include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "backlight/base/json_text.h"
 
@@ -25,13 +28,57 @@ Result<OutputPattern> output_pattern(const RenderOptions& options) {
                  (example.extension() == ".png" ? " (--png writes a PNG beside the EXR)" : "")};
 }
 
+// As a shell would have to read it.
+std::string quoted(const std::string& argument) {
+  const std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
+  std::string text = "'";
+  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+// Options that say which images are made, where they go and how the run is told about: not what is in one.
+constexpr std::array flags_of_the_run{"--png",     "--skip-existing", "--no-clobber", "--resume", "--claim",
+                                      "--dry-run", "--list-frames",   "-q",           "--quiet",  "-v",
+                                      "--verbose"};
+constexpr std::array values_of_the_run{"-o",       "--output", "-f",         "--frames",        "--time",
+                                       "--crop",   "--stats",  "--progress", "--claim-expires", "-t",
+                                       "--threads"};
+
+template <class Names>
+bool is_among(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::string> arguments_of_an_image(const std::vector<std::string>& all) {
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string& argument = all[i];
+    const bool is_short = argument.size() > 2 && argument[0] == '-' && argument[1] != '-';
+    const std::string name = is_short ? argument.substr(0, 2) : argument.substr(0, argument.find('='));
+    if (is_among(flags_of_the_run, name)) continue;
+    if (!is_among(values_of_the_run, name)) {
+      kept.push_back(argument);
+    } else if (argument == name) {
+      ++i;  // its value
+    }
+  }
+  return kept;
+}
+
 }  // namespace
 
-std::string PlannedImage::arguments() const {
-  std::string text;
-  if (request.time) text += " --time " + json_number(*request.time);
-  if (request.frame) text += " -f " + std::to_string(*request.frame);
-  return text;
+std::string command_for(const RenderOptions& options, const PlannedImage& image,
+                        const std::optional<PixelBox>& crop) {
+  std::string text = "backlight render";
+  for (const std::string& argument : arguments_of_an_image(options.arguments)) text += " " + quoted(argument);
+  if (image.request.time) text += " --time " + json_number(*image.request.time);
+  if (image.request.frame) text += " -f " + std::to_string(*image.request.frame);
+  if (crop) {
+    text += " --crop " + std::to_string(crop->x0) + "," + std::to_string(crop->y0) + "," +
+            std::to_string(crop->x1) + "," + std::to_string(crop->y1);
+  }
+  return text + " -o again.exr";
 }
 
 Result<std::vector<PlannedImage>> plan_images(const RenderOptions& options,

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "backlight/base/result.h"
@@ -14,10 +15,12 @@ struct PlannedImage {
   ImageRequest request;
   std::filesystem::path exr;
   std::filesystem::path png;  ///< empty when none is asked for
-
-  /// What to write after "backlight render SCENE" to get this image alone.
-  [[nodiscard]] std::string arguments() const;
 };
+
+/// The command that makes a crop of one image again, as it would be typed: the options of this run that say
+/// what is rendered, and a file of its own to write to.
+std::string command_for(const RenderOptions& options, const PlannedImage& image,
+                        const std::optional<PixelBox>& crop);
 
 /// The images, in the order of rendering; `scene_frames` are those of the scene's [animation]. Their names
 /// get a number when there are several, and when they are some frames of an animation: jobs that render one

@@ -24,6 +24,8 @@ class SceneSession {
   /// The frame numbers of the scene's [animation], or {1}.
   [[nodiscard]] std::vector<int> frames() const { return animation_frames(*description_); }
   [[nodiscard]] const Description& description() const { return *description_; }
+  /// Of the files that the scene takes things from, once it has been compiled.
+  Result<std::vector<std::string>> resource_digests() { return cache_.digests(); }
 
  private:
   std::optional<Description> description_;

@@ -31,7 +31,8 @@ class JsonObject {
 }  // namespace
 
 std::string statistics_json(const Scene& scene, const RenderSettings& settings,
-                            const RenderStatistics& statistics, const std::filesystem::path& file) {
+                            const RenderStatistics& statistics, const ImageFaults& faults,
+                            const std::filesystem::path& file) {
   const PixelBox whole{0, 0, scene.film.width, scene.film.height};
   const PixelBox window = settings.crop.value_or(whole);
   JsonObject object;
@@ -43,22 +44,25 @@ std::string statistics_json(const Scene& scene, const RenderSettings& settings,
       .number("wavelengths", settings.wavelengths);
   object.number("threads", statistics.threads).number("seconds", statistics.seconds);
   object.count("cameraRays", statistics.rays.primary).count("shadowRays", statistics.rays.shadow);
-  object.count("dataRays", statistics.rays.data).count("nonFinitePixels", statistics.rays.non_finite);
+  object.count("dataRays", statistics.rays.data);
+  object.count("nonFinitePixels", faults.non_finite).count("beyondHalfPixels", faults.beyond_half);
   return object.str();
 }
 
-Result<StatisticsFile> StatisticsFile::open(const std::filesystem::path& path) {
+Result<StatisticsFile> StatisticsFile::open(const std::filesystem::path& path, bool append) {
   StatisticsFile statistics;
   statistics.path_ = path;
   if (path.empty()) return statistics;
-  statistics.file_.open(path, std::ios::trunc);
+  statistics.file_.rdbuf()->pubsetbuf(nullptr, 0);
+  statistics.file_.open(path, append ? std::ios::app : std::ios::trunc);
   if (!statistics.file_) return cannot_write(path);
   return statistics;
 }
 
 Result<void> StatisticsFile::write(const std::string& line) {
   if (path_.empty()) return {};
-  file_ << line << '\n' << std::flush;
+  const std::string whole = line + '\n';
+  file_.write(whole.data(), static_cast<std::streamsize>(whole.size())).flush();
   if (!file_) return cannot_write(path_);
   return {};
 }

@@ -6,25 +6,28 @@
 #include <string>
 
 #include "backlight/base/result.h"
+#include "backlight/render/image_faults.h"
 #include "backlight/render/render.h"
 
 namespace backlight {
 
 /// {"frame":3,"time":0.08,"file":"a.0003.exr",...}; docs/command-line.md lists the members.
 std::string statistics_json(const Scene& scene, const RenderSettings& settings,
-                            const RenderStatistics& statistics, const std::filesystem::path& file);
+                            const RenderStatistics& statistics, const ImageFaults& faults,
+                            const std::filesystem::path& file);
 
 /// The file of --stats: each line is whole on the disk before the next image begins.
 class StatisticsFile {
  public:
-  /// Begins an empty file. With an empty path nothing is written, ever.
-  static Result<StatisticsFile> open(const std::filesystem::path& path);
+  /// Begins an empty file, or goes on at the end of one. With an empty path nothing is written, ever. Several
+  /// processes may append to one file: each line is written at once.
+  static Result<StatisticsFile> open(const std::filesystem::path& path, bool append);
 
   Result<void> write(const std::string& line);
 
  private:
   std::filesystem::path path_;
-  std::ofstream file_;
+  std::ofstream file_;  // unbuffered
 };
 
 }  // namespace backlight

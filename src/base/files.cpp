@@ -32,6 +32,12 @@ fs::path temporary_name(const fs::path& folder) {
   return folder / (".backlight-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
 }
 
+/// A file without a name in `folder`, or -1: it vanishes with the process. It is given a name through /proc.
+int open_nameless(const fs::path& folder) {
+  static const bool can_be_named = ::access("/proc/self/fd", X_OK) == 0;
+  return can_be_named ? ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
+}
+
 /// Flushes a folder's entries. File systems without such a flush (EINVAL) need none.
 int flush_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -61,6 +67,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
   if (folder_error) {
     return cannot_write(path, "cannot make the folder " + folder.string() + ": " + folder_error.message());
   }
+  if (const int descriptor = open_nameless(folder); descriptor >= 0) return AtomicFile(path, {}, descriptor);
   for (;;) {
     fs::path temporary = temporary_name(folder);
     const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -148,6 +155,21 @@ Result<void> AtomicFile::write(std::string_view text) {
   return write(std::as_bytes(std::span(text.data(), text.size())));
 }
 
+/// Links a file without a name into its folder. Returns 0, or the error's number.
+int AtomicFile::give_name() {
+  const std::string link = "/proc/self/fd/" + std::to_string(descriptor_);
+  for (;;) {
+    const fs::path temporary = temporary_name(folder_of(path_));
+    if (::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      temporary_ = temporary;
+      return 0;
+    }
+    if (errno != EEXIST && errno != EINTR) {
+      return errno;
+    }
+  }
+}
+
 Result<void> AtomicFile::commit() {
   if (Result<void> so_far = status(); !so_far.ok()) {
     return so_far;
@@ -155,6 +177,11 @@ Result<void> AtomicFile::commit() {
   while (::fsync(descriptor_) != 0) {
     if (errno != EINTR) {
       return fail(errno);
+    }
+  }
+  if (temporary_.empty()) {
+    if (const int error_number = give_name(); error_number != 0) {
+      return fail(error_number);
     }
   }
   // A network file system may say only here that the disk is full. The descriptor is gone in any case.

@@ -8,8 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "half_range.h"
-
 namespace backlight {
 namespace {
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 #include <string_view>
+#include <vector>
 
 #include "assembly_cover.h"
 #include "backlight/film/assemble.h"
@@ -31,12 +32,16 @@ std::string value_text(const ExrHeader& header, std::string_view name) {
   return text_of(attribute->value);
 }
 
-std::set<std::string> attribute_names(const ExrHeader& a, const ExrHeader& b) {
+/// The identity, which differs when anything does, comes last: any other difference tells more.
+std::vector<std::string> attribute_names(const ExrHeader& a, const ExrHeader& b) {
+  const std::string identity = "backlight/identity";
   std::set<std::string> names;
   for (const ExrHeader* header : {&a, &b}) {
     for (const ExrAttribute& attribute : header->attributes) names.insert(attribute.name);
   }
-  return names;
+  std::vector<std::string> ordered(names.begin(), names.end());
+  std::ranges::stable_partition(ordered, [&](const std::string& name) { return name != identity; });
+  return ordered;
 }
 
 /// "NAME is X, and Y in FIRST", or nothing when both are the same.

@@ -22,6 +22,8 @@ namespace {
 /// OpenEXR reads through this. Reading past the end leaves as an exception.
 class FileStream : public Imf::IStream {
  public:
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
   explicit FileStream(const std::filesystem::path& path)
       : Imf::IStream(path.c_str()), file_(path, std::ios::binary) {
     std::error_code error;
@@ -55,8 +57,7 @@ class FileStream : public Imf::IStream {
 
 /// The first part's header. It is looked at before Imf::InputFile sees it, which trusts the windows of a
 /// damaged file enough to allocate tables for them.
-ExrInfo read_info(const std::filesystem::path& path) {
-  FileStream stream(path);
+ExrInfo read_info(FileStream& stream) {
   int magic = 0;
   int version = 0;
   Imf::Xdr::read<Imf::StreamIO>(stream, magic);
@@ -73,6 +74,35 @@ ExrInfo read_info(const std::filesystem::path& path) {
   Imf::Header header;
   header.readFrom(stream, version);
   return from_imf(header);
+}
+
+ExrInfo read_info_of(const std::filesystem::path& path) {
+  FileStream stream(path);
+  return read_info(stream);
+}
+
+/// Walks through the chunks of a one-part scanline file by its table of offsets, which follows the header:
+/// each chunk begins with its first row and its size.
+void check_chunks(FileStream& stream, const ExrInfo& info) {
+  const int rows = info.layout.data.height();
+  const int count = (rows + zip_chunk_rows - 1) / zip_chunk_rows;
+  const std::uint64_t table = stream.tellg();
+  for (int chunk = 0; chunk < count; ++chunk) {
+    std::uint64_t offset = 0;
+    int row = 0;
+    int size = 0;
+    stream.seekg(table + 8 * static_cast<std::uint64_t>(chunk));
+    Imf::Xdr::read<Imf::StreamIO>(stream, offset);
+    if (offset < table || offset > stream.size()) throw std::runtime_error("rows of the picture are missing");
+    stream.seekg(offset);
+    Imf::Xdr::read<Imf::StreamIO>(stream, row);
+    Imf::Xdr::read<Imf::StreamIO>(stream, size);
+    const std::uint64_t left = stream.size() - offset - 8;
+    if (row != info.layout.data.y0 + chunk * zip_chunk_rows || size <= 0 ||
+        static_cast<std::uint64_t>(size) > left) {
+      throw std::runtime_error("rows of the picture are missing");
+    }
+  }
 }
 
 /// `read()`, its exceptions turned into failures.
@@ -96,7 +126,7 @@ class ExrReader::Implementation {
  public:
   // The header is judged by read_info before a table is allocated for what it announces.
   explicit Implementation(std::filesystem::path path)
-      : path_(std::move(path)), info_(read_info(path_)), stream_(path_), input_(stream_, 0) {}
+      : path_(std::move(path)), info_(read_info_of(path_)), stream_(path_), input_(stream_, 0) {}
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const ExrInfo& info() const { return info_; }
@@ -174,7 +204,16 @@ Result<Image> read_pixels(ExrReader& reader) {
 }  // namespace
 
 Result<ExrInfo> read_exr_info(const std::filesystem::path& path) {
-  return without_exceptions<ExrInfo>(path, [&] { return read_info(path); });
+  return without_exceptions<ExrInfo>(path, [&] { return read_info_of(path); });
+}
+
+Result<ExrInfo> read_whole_exr_info(const std::filesystem::path& path) {
+  return without_exceptions<ExrInfo>(path, [&]() -> Result<ExrInfo> {
+    FileStream stream(path);
+    ExrInfo info = read_info(stream);
+    check_chunks(stream, info);
+    return info;
+  });
 }
 
 Result<ExrPicture> read_exr(const std::filesystem::path& path) {

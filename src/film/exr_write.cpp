@@ -14,7 +14,6 @@
 #include "backlight/base/files.h"
 #include "backlight/film/exr.h"
 #include "exr_header.h"
-#include "half_range.h"
 
 namespace backlight {
 namespace {
@@ -156,7 +155,7 @@ class ExrWriter::Implementation {
     }
   }
 
-  static constexpr int band_rows = 16;  ///< the rows of one ZIP chunk
+  static constexpr int band_rows = zip_chunk_rows;
 
   AtomicFile file_;
   CheckedStream stream_;

@@ -2,9 +2,15 @@
 
 #include <ImfMultiView.h>
 
+#include <cmath>
 #include <utility>
 
 namespace backlight {
+
+bool fits_half(float value) {
+  constexpr float greatest_half = 65504.0F;
+  return !std::isfinite(value) || std::abs(value) <= greatest_half;
+}
 
 std::string channel_name(std::string_view name, const std::vector<std::string>& views, std::size_t view) {
   if (views.empty()) {

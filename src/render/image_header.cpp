@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "backlight/render/image_identity.h"
+
 namespace backlight {
 namespace {
 
@@ -79,6 +81,7 @@ ExrHeader image_header(const Scene& scene, const ImageOrigin& origin,
   list.push_back({"backlight/seed", double(scene.film.seed)});
   list.push_back({"backlight/effects", effects_text(scene.effects)});
   if (!scene.regions.empty()) list.push_back({"backlight/effectsRegions", region_texts(scene)});
+  if (!origin.identity.empty()) list.push_back({identity_attribute, origin.identity});
   list.push_back({"backlight/complete", std::int32_t{1}});
   return header;
 }

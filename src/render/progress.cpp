@@ -149,6 +149,11 @@ void ProgressReporter::end_image() {
   if (tells_the_end && images_done_ == images_) report();
 }
 
+void ProgressReporter::skip_image() {
+  const std::lock_guard lock(guard_);
+  --images_;
+}
+
 void ProgressReporter::say(std::string_view line) {
   const std::lock_guard lock(guard_);
   clear_bar();

@@ -61,6 +61,14 @@ struct ThreadMemory {
   std::vector<int> covered;
 };
 
+// Whether the rest of a tile's samples will take less than a moment, by what those before have taken: when a
+// run is stopped, or looked at, the tile is then not traced in vain.
+bool is_worth_finishing(std::chrono::steady_clock::time_point begin, int done, int samples) {
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  constexpr double moment = 0.5;  // seconds
+  return done > 0 && taken.count() * (samples - done) < moment * done;
+}
+
 // The pixels of one view: what a tile task needs.
 class ViewRenderer {
  public:
@@ -75,7 +83,7 @@ class ViewRenderer {
         done_(partial.done[view]) {}
 
   // Traces what is missing of a tile; gives up between two pixels, or two samples of the tile, when `stop`
-  // turns true, since a tile of many samples may take minutes.
+  // turns true and the tile is not about to be done: one of many samples may take minutes.
   void tile(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& memory) {
     if (sheets_ != nullptr) {
       try {
@@ -130,8 +138,9 @@ class ViewRenderer {
     const bool records = samples == 1 && has_data_channels(scene) && !has_light_channels(scene);
     m.sums.assign(m.pixels.size(), LinearRgb{0.0});
     m.covered.assign(m.pixels.size(), 0);
+    const auto begin = std::chrono::steady_clock::now();
     for (int i = 0; i < samples; ++i) {
-      if (stop.load(std::memory_order_relaxed)) return;
+      if (stop.load(std::memory_order_relaxed) && !is_worth_finishing(begin, i, samples)) return;
       sheets_->trace(m.pixels, settings_.image_number, i, eye_, records, *m.sheet, m.scratch, m.light);
       for (std::size_t k = 0; k < m.pixels.size(); ++k) {
         if (m.light.covered[k] == 0) continue;

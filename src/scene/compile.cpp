@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "compile_parts.h"
 #include "words.h"
@@ -132,6 +133,51 @@ void check_request(const ImageRequest& request, Diagnostics& diagnostics) {
     diagnostics.error({}, "the time must be a finite number");
 }
 
+FilmSettings read_film(ImageValues& values, const ImageRequest& request) {
+  const TableView table = TableView::top(values, "film");
+  FilmSettings film;
+  const std::vector<double> size = table.numbers("resolution");
+  film.width = static_cast<int>(size[0]);
+  film.height = static_cast<int>(size[1]);
+  film.samples = static_cast<int>(table.number("samples"));
+  film.seed = static_cast<unsigned>(table.number("seed"));
+  if (const Node* aovs = table.node_of("aovs"); aovs != nullptr && aovs->array() != nullptr) {
+    for (const Node& name : *aovs->array()) {
+      if (name.text() != nullptr) film.aovs.push_back(*name.text());
+    }
+  }
+  check_request(request, values.diagnostics);
+  if (request.resolution) std::tie(film.width, film.height) = *request.resolution;
+  film.samples = request.samples.value_or(film.samples);
+  film.seed = request.seed.value_or(film.seed);
+  if (request.aovs) film.aovs = *request.aovs;
+  std::vector<std::string> once;
+  for (const std::string& name : film.aovs) {
+    if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
+  }
+  film.aovs = once;
+  return film;
+}
+
+std::string camera_name(const Description& description, const ImageRequest& request) {
+  const Entry* entry = find(description.root, "camera");
+  if (!request.camera.empty() || entry == nullptr) return request.camera;
+  const NodeArray* cameras = entry->node.array();
+  const bool none = cameras != nullptr && cameras->empty();
+  const Entry* name = none ? nullptr : find(cameras != nullptr ? cameras->front() : entry->node, "name");
+  return name != nullptr && name->node.text() != nullptr ? *name->node.text() : std::string();
+}
+
+// The variables of one image.
+ImageValues image_values(const Description& description, const ImageRequest& request,
+                         Diagnostics& diagnostics) {
+  ImageValues values{description, std::vector<double>(description.variables.size(), 0.0), diagnostics};
+  set_time(values, request, read_animation(description, diagnostics));
+  evaluate_parameters(values);
+  check_parameters(values);
+  return values;
+}
+
 }  // namespace
 
 void compile_effects(Compilation& c) {
@@ -153,29 +199,16 @@ void compile_effects(Compilation& c) {
 }
 
 void compile_film(Compilation& c) {
-  const TableView table = TableView::top(c.values, "film");
-  FilmSettings& film = c.scene.film;
-  const std::vector<double> size = table.numbers("resolution");
-  film.width = static_cast<int>(size[0]);
-  film.height = static_cast<int>(size[1]);
-  film.samples = static_cast<int>(table.number("samples"));
-  film.seed = static_cast<unsigned>(table.number("seed"));
-  if (const Node* aovs = table.node_of("aovs"); aovs != nullptr && aovs->array() != nullptr) {
-    for (const Node& name : *aovs->array()) {
-      if (name.text() != nullptr) film.aovs.push_back(*name.text());
-    }
-  }
-  const ImageRequest& request = c.request;
-  check_request(request, c.values.diagnostics);
-  if (request.resolution) std::tie(film.width, film.height) = *request.resolution;
-  film.samples = request.samples.value_or(film.samples);
-  film.seed = request.seed.value_or(film.seed);
-  if (request.aovs) film.aovs = *request.aovs;
-  std::vector<std::string> once;
-  for (const std::string& name : film.aovs) {
-    if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
-  }
-  film.aovs = once;
+  c.scene.film = read_film(c.values, c.request);
+}
+
+std::optional<ImageFacts> image_facts(const Description& description, const ImageRequest& request) {
+  Diagnostics diagnostics;
+  ImageValues values = image_values(description, request, diagnostics);
+  FilmSettings film = read_film(values, request);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return ImageFacts{values.variables[0], values.variables[1], camera_name(description, request),
+                    std::move(film)};
 }
 
 std::vector<int> animation_frames(const Description& description) {
@@ -189,10 +222,7 @@ std::vector<int> animation_frames(const Description& description) {
 std::optional<Scene> compile(const Description& description, const ImageRequest& request,
                              ResourceCache& cache, Diagnostics& diagnostics) {
   Scene scene;
-  ImageValues values{description, std::vector<double>(description.variables.size(), 0.0), diagnostics};
-  set_time(values, request, read_animation(description, diagnostics));
-  evaluate_parameters(values);
-  check_parameters(values);
+  ImageValues values = image_values(description, request, diagnostics);
   scene.time = values.variables[0];
   scene.frame = values.variables[1];
   scene.c = TableView(values, &description.root, *find_table("")).number("c");

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "backlight/base/files.h"
+#include "backlight/base/sha256.h"
 
 namespace backlight {
 namespace {
@@ -106,6 +107,7 @@ Result<SpectrumTable> read_spectrum(const std::filesystem::path& path) {
 
 Result<std::shared_ptr<const Texture>> ResourceCache::texture(const std::filesystem::path& path) {
   if (const auto known = textures_.find(path); known != textures_.end()) return known->second;
+  used_.push_back({path, {}});
   auto loaded = load_texture(path);
   if (!loaded.ok()) return loaded.failure();
   return textures_[path] = std::make_shared<const Texture>(std::move(loaded).value());
@@ -114,6 +116,7 @@ Result<std::shared_ptr<const Texture>> ResourceCache::texture(const std::filesys
 Result<std::shared_ptr<const std::vector<CatalogueStar>>> ResourceCache::stars(
     const std::filesystem::path& path) {
   if (const auto known = stars_.find(path); known != stars_.end()) return known->second;
+  used_.push_back({path, {}});
   auto loaded = read_stars(path);
   if (!loaded.ok()) return loaded.failure();
   return stars_[path] = std::make_shared<const std::vector<CatalogueStar>>(std::move(loaded).value());
@@ -121,9 +124,23 @@ Result<std::shared_ptr<const std::vector<CatalogueStar>>> ResourceCache::stars(
 
 Result<SpectrumTable> ResourceCache::spectrum(const std::filesystem::path& path) {
   if (const auto known = spectra_.find(path); known != spectra_.end()) return known->second;
+  used_.push_back({path, {}});
   auto loaded = read_spectrum(path);
   if (loaded.ok()) spectra_[path] = loaded.value();
   return loaded;
+}
+
+Result<std::vector<std::string>> ResourceCache::digests() {
+  std::vector<std::string> digests;
+  for (UsedFile& file : used_) {
+    if (file.digest.empty()) {
+      const auto contents = read_file(file.path);
+      if (!contents.ok()) return contents.failure();
+      file.digest = sha256_hex(contents.value());
+    }
+    digests.push_back(file.digest);
+  }
+  return digests;
 }
 
 SigmoidReflectance ResourceCache::sigmoid(const LinearRgb& rgb) {

@@ -31,7 +31,7 @@ class FailureTest : public ProgramTest {
 
   // A picture that takes hours, and each of its tiles many seconds.
   void write_slow_scene() { write_scene("slow.toml"); }
-  const std::vector<std::string> slow{"slow.toml", "-r", "4000x4000", "-s",          "64",
+  const std::vector<std::string> slow{"slow.toml", "-r", "1500x1500", "-s",          "2000",
                                       "-t",        "2",  "-o",        "out/slow.exr"};
 
   // Waits until the picture is being traced: its folder has been made.
@@ -159,7 +159,7 @@ TEST_F(FailureTest, FullStandardOutputIsNoticed) {
   EXPECT_EQ(outcome.err, "backlight: error: cannot write to standard output\n");
 }
 
-TEST_F(FailureTest, SignalsStopItAtOnceAndLeaveNothing) {
+TEST_F(FailureTest, SignalsStopItAtOnce) {
   write_slow_scene();
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     std::filesystem::remove_all(folder / "work" / "out");
@@ -171,10 +171,24 @@ TEST_F(FailureTest, SignalsStopItAtOnceAndLeaveNothing) {
     });
     const std::chrono::duration<double> reaction = std::chrono::steady_clock::now() - sent;
     EXPECT_EQ(outcome.code, 128 + number) << outcome.err;
-    // The image would take minutes. Unloaded it stops within a tenth of a second, but a test cannot know the
-    // load.
+    // The image would take minutes. Unloaded it stops within a second, most of which goes into the partial
+    // image, but a test cannot know the load.
     EXPECT_LT(reaction.count(), 20.0);
-    EXPECT_EQ(files(), Files{"slow.toml"});
+    EXPECT_EQ(files(), (Files{"out/slow.partial.exr", "slow.toml"}));
+  }
+}
+
+TEST_F(FailureTest, ASecondSignalEndsItAtOnce) {
+  write_slow_scene();
+  const Outcome outcome = run_and(slow, [&](int process) {
+    wait_until_rendering();
+    kill(process, SIGTERM);
+    kill(process, SIGINT);
+  });
+  // The two may be delivered in either order, and the partial image may even be there already.
+  EXPECT_TRUE(outcome.code == 128 + SIGTERM || outcome.code == 128 + SIGINT) << outcome.code;
+  for (const std::string& file : files()) {
+    EXPECT_TRUE(file == "slow.toml" || file == "out/slow.partial.exr") << file;
   }
 }
 

@@ -69,14 +69,12 @@ Outcome ProgramTest::run(const std::vector<std::string>& arguments,
   return outcome;
 }
 
-Outcome ProgramTest::run_and(const std::vector<std::string>& arguments,
-                             const std::function<void(int)>& while_running) {
+int ProgramTest::start(const std::vector<std::string>& arguments, const std::string& label) {
   std::vector<char*> argv{const_cast<char*>(BACKLIGHT_PROGRAM)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  const fs::path out = folder / "stdout";
-  const fs::path err = folder / "stderr";
-  const auto start = std::chrono::steady_clock::now();
+  const fs::path out = folder / (label + ".stdout");
+  const fs::path err = folder / (label + ".stderr");
   const pid_t child = fork();
   if (child == 0) {
     redirect("/dev/null", STDIN_FILENO);
@@ -88,12 +86,24 @@ Outcome ProgramTest::run_and(const std::vector<std::string>& arguments,
     execv(argv[0], argv.data());
     _exit(127);
   }
-  while_running(child);
+  return child;
+}
+
+Outcome ProgramTest::finish(int process, const std::string& label) {
   Outcome outcome;
-  outcome.code = wait_for(child);
-  outcome.out = contents(out);
-  outcome.err = contents(err);
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.code = wait_for(process);
+  outcome.out = contents(folder / (label + ".stdout"));
+  outcome.err = contents(folder / (label + ".stderr"));
+  return outcome;
+}
+
+Outcome ProgramTest::run_and(const std::vector<std::string>& arguments,
+                             const std::function<void(int)>& while_running) {
+  const auto began = std::chrono::steady_clock::now();
+  const int child = start(arguments, "run");
+  while_running(child);
+  Outcome outcome = finish(child, "run");
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return outcome;
 }
 

@@ -31,6 +31,11 @@ class ProgramTest : public testing::Test {
   /// The same, with `while_running(process id)` called right after the start.
   Outcome run_and(const std::vector<std::string>& arguments, const std::function<void(int)>& while_running);
 
+  /// Starts the program and returns at once: several may run side by side, each under a label of its own.
+  int start(const std::vector<std::string>& arguments, const std::string& label);
+  /// Waits for the end of a process that start() began.
+  Outcome finish(int process, const std::string& label);
+
   /// What the child does before it becomes the program: resource limits, another user.
   std::function<void()> in_child;
 

@@ -57,13 +57,6 @@ TEST_F(Usage, HelpFitsTheTerminalAndNamesEveryOption) {
   EXPECT_EQ(help.find("\n\n\n"), std::string::npos);
 }
 
-TEST_F(Usage, HelpPromisesNothingThatIsNotThere) {
-  const std::string all = run({"--help"}).out + run({"render", "--help"}).out;
-  for (const char* option : {"--skip-existing", "--no-clobber", "--resume", "--claim"}) {
-    EXPECT_EQ(all.find(option), std::string::npos) << option;
-  }
-}
-
 TEST_F(Usage, VersionIsOneLine) {
   const Outcome outcome = run({"--version"});
   EXPECT_EQ(outcome.code, 0);

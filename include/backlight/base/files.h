@@ -12,9 +12,11 @@
 
 namespace backlight {
 
-/// A file being written. The bytes go to a hidden temporary in the folder of `path`; `commit` moves it to
-/// `path` in one step, so that a file under its final name is always whole, whatever fails or is killed.
-/// Without a commit the destructor removes the temporary, and a file that was at `path` before is untouched.
+/// A file being written. The bytes go to a temporary on the file system of `path`, without a name where that
+/// file system can (O_TMPFILE), so that nothing is left of a killed process; hidden in the same folder
+/// elsewhere. `commit` moves it to `path` in one step: a file under its final name is always whole, whatever
+/// fails or is killed. Without a commit the destructor removes the temporary, and a file that was at `path`
+/// before is untouched.
 ///
 /// The first failure is kept: later calls do nothing and return it again. A caller behind an interface that
 /// swallows errors may therefore look once, at the commit. Not for concurrent use of one object.
@@ -51,9 +53,10 @@ class AtomicFile {
  private:
   AtomicFile(std::filesystem::path path, std::filesystem::path temporary, int descriptor);
   Result<void> fail(int error_number);
+  int give_name();
 
   std::filesystem::path path_;
-  std::filesystem::path temporary_;
+  std::filesystem::path temporary_;  ///< empty while it has no name
   int descriptor_ = -1;
   std::uint64_t position_ = 0;
   std::string error_;

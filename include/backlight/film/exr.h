@@ -130,6 +130,11 @@ struct ExrInfo {
 };
 Result<ExrInfo> read_exr_info(const std::filesystem::path& path);
 
+/// The same of a file like those of write_exr whose pixels are all there: fails besides when a chunk is
+/// missing, out of place or cut short, as in a copy that was interrupted, and on a file of another
+/// compression. Reads the heads of the chunks, not their contents.
+Result<ExrInfo> read_whole_exr_info(const std::filesystem::path& path);
+
 /// Reads rows of a file that need not fit into memory as a whole. What read_exr fails on, this fails on: in
 /// `open` for the header, in `read_rows` for the rows.
 class ExrReader {

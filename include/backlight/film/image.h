@@ -29,6 +29,10 @@ enum class ChannelPrecision {
   single  ///< float: distances, times, positions, identifiers
 };
 
+/// Whether half precision can hold the value: up to 65504. Infinities and NaNs have their counterparts in
+/// half.
+bool fits_half(float value);
+
 /// A channel's name as in the file ("R", "Z", "doppler.D", "P.X"...) and its storage.
 struct ChannelInfo {
   std::string name;

@@ -17,6 +17,7 @@ struct ImageOrigin {
   std::string scene_file;              ///< file name, without the folder
   std::string scene_sha256;            ///< of the scene file and what it includes
   std::vector<std::string> overrides;  ///< "path=value"
+  std::string identity;                ///< image_identity.h
 };
 
 /// The header of an image (docs/command-line.md lists the attributes). The clock goes in only as

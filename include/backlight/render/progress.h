@@ -60,6 +60,9 @@ class ProgressReporter {
   /// The image is done. Lines and json report the end of the run at once.
   void end_image();
 
+  /// One image less to make than was thought: the time that is left is guessed from those that are made.
+  void skip_image();
+
   /// A line for the reader, kept clear of the bar.
   void say(std::string_view line);
 

@@ -33,6 +33,17 @@ struct ImageRequest {
 std::optional<Scene> compile(const Description& description, const ImageRequest& request,
                              ResourceCache& cache, Diagnostics& diagnostics);
 
+/// What can be said of an image without compiling its scene.
+struct ImageFacts {
+  double time = 0.0;
+  double frame = 1.0;
+  std::string camera;  ///< the name of the camera that is used, if it has one
+  FilmSettings film;
+};
+
+/// The facts as compile() would find them. Empty when something about them is wrong, which compile() reports.
+std::optional<ImageFacts> image_facts(const Description& description, const ImageRequest& request);
+
 /// The frame numbers of [animation], or {1}. Empty if the table is wrong, which compile() reports.
 std::vector<int> animation_frames(const Description& description);
 

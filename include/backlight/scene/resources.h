@@ -45,12 +45,21 @@ class ResourceCache {
   /// fit_sigmoid(rgb), which takes a while, once for each colour.
   SigmoidReflectance sigmoid(const LinearRgb& rgb);
 
+  /// SHA-256 (hexadecimal) of the contents of every file that was asked for, in the order of first asking:
+  /// what an image depends on besides the scene's own text. Fails if one cannot be read any more.
+  Result<std::vector<std::string>> digests();
+
  private:
+  struct UsedFile {
+    std::filesystem::path path;
+    std::string digest;  // empty until it is asked for
+  };
   using Rgb = std::array<double, 3>;
   std::map<std::filesystem::path, std::shared_ptr<const Texture>> textures_;
   std::map<std::filesystem::path, std::shared_ptr<const std::vector<CatalogueStar>>> stars_;
   std::map<std::filesystem::path, SpectrumTable> spectra_;
   std::map<Rgb, SigmoidReflectance> sigmoids_;
+  std::vector<UsedFile> used_;
 };
 
 }  // namespace backlight

@@ -1,11 +1,13 @@
 #include "backlight/base/files.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -30,8 +32,21 @@ class Files : public testing::Test {
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
   }
 
+  [[nodiscard]] bool supports_nameless_files() const {
+    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY, 0600);
+    if (descriptor >= 0) ::close(descriptor);
+    return descriptor >= 0;
+  }
+
   fs::path folder;
 };
+
+TEST_F(Files, HasTheModeOfAnOrdinaryFile) {
+  const mode_t before = ::umask(027);
+  ASSERT_TRUE(write_file(folder / "file", "x").ok());
+  ::umask(before);
+  EXPECT_EQ(fs::status(folder / "file").permissions(), fs::perms(0640));
+}
 
 TEST_F(Files, WritesAndReadsAnyBytes) {
   const std::string bytes("a\0b\xFF\n", 5);
@@ -78,8 +93,22 @@ TEST_F(Files, LeavesNothingWithoutACommit) {
     Result<AtomicFile> file = AtomicFile::create(folder / "file");
     ASSERT_TRUE(file.ok());
     ASSERT_TRUE(file.value().write("x").ok());
-    EXPECT_EQ(entries(), 1);
+    EXPECT_FALSE(fs::exists(folder / "file"));
   }
+  EXPECT_EQ(entries(), 0);
+}
+
+TEST_F(Files, LeavesNothingOfAKilledWriter) {
+  if (!supports_nameless_files()) GTEST_SKIP() << "the file system has no files without a name";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Result<AtomicFile> file = AtomicFile::create(folder / "file");
+    if (!file.ok() || !file.value().write("half of i").ok()) ::_exit(1);
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
   EXPECT_EQ(entries(), 0);
 }
 

@@ -63,6 +63,23 @@ class FileSizeLimit {
   void (*handler_)(int) = SIG_DFL;
 };
 
+TEST_F(ExrDamage, AFileThatWasCutShortIsNotWhole) {
+  const Image image = noise(40, 50);  // four chunks
+  ASSERT_TRUE(write_exr(folder / "whole.exr", image, {}).ok());
+  ASSERT_TRUE(read_whole_exr_info(folder / "whole.exr").ok());
+  const std::string bytes = read_file(folder / "whole.exr").value();
+  for (const std::size_t length : {bytes.size() - 1, bytes.size() / 2, std::size_t{400}, std::size_t{3}}) {
+    ASSERT_TRUE(write_file(folder / "cut.exr", bytes.substr(0, length)).ok());
+    EXPECT_FALSE(read_whole_exr_info(folder / "cut.exr").ok()) << length;
+  }
+  // A copy of which a block is missing in the middle, as sparse copies leave them.
+  std::string hole = bytes;
+  const auto third = static_cast<std::ptrdiff_t>(bytes.size() / 3);
+  std::fill(hole.begin() + third, hole.end() - third, '\0');
+  ASSERT_TRUE(write_file(folder / "hole.exr", hole).ok());
+  EXPECT_FALSE(read_whole_exr_info(folder / "hole.exr").ok());
+}
+
 TEST_F(ExrDamage, NoSpaceAtAnyByteIsAnErrorAndLeavesNothing) {
   const Image image = noise(40, 40);
   const fs::path path = folder / "a.exr";
