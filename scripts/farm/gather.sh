@@ -25,5 +25,5 @@ if [[ -n $missing ]]; then
 fi
 echo "all ${#image_paths[@]} images are complete"
 if [[ -n $video ]]; then
-  "$here/../video.sh" "${fps_option[@]}" -o "$video" "${image_paths[@]}"
+  "$here/../video.sh" "${image_paths[@]}" -o "$video" "${fps_option[@]}" --program "$program"
 fi

@@ -59,6 +59,7 @@ done
 for number in "$chunk" "$parts" "$cpus" "$at_once" "$fps"; do
   [[ -z $number || ($number =~ ^[0-9]{1,7}$ && $number -gt 0) ]] || fail "'$number' is not a whole number from 1"
 done
+[[ -z $video || $video == *.mp4 ]] || fail "--video: '$video' must end in .mp4"
 [[ -z $parts || -z $video ]] || fail "--video is of many images, --parts of one"
 
 program=${BACKLIGHT:-$here/../../build/release/bin/backlight}
