@@ -155,6 +155,10 @@ void Spectrum::visit(const Visitor& visitor) const {
     case Kind::constant:
       return visitor([scale](double) { return scale; });
     case Kind::sigmoid:
+      // Most have no levels of their own outside the visible range: there, the blend would add nothing.
+      if (uv_ == shape_.at(cie::first_nm) && ir_ == shape_.at(cie::last_nm)) {
+        return visitor([shape = shape_, scale](double nm) { return scale * shape.at(nm); });
+      }
       return visitor([this, scale](double nm) { return scale * reflectance_at(nm); });
     case Kind::d65:
       return visitor([this, scale](double nm) { return scale * d65_at(nm); });

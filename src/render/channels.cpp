@@ -74,19 +74,13 @@ PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
   for (const DataChannel& channel : data_channels) {
     if (asked_for(scene, channel.aov)) data_.push_back(channel.value);
   }
+  for (std::size_t c = 0; c < 4; ++c) colour_[c] = image.plane(first_ + c).data();
 }
 
 bool PixelWriter::write(std::size_t channel, int x, int y, double value) {
   const auto stored = static_cast<float>(value);
   image_.at(first_ + channel, x, y) = stored;
   return std::isfinite(stored);
-}
-
-bool PixelWriter::colour(int x, int y, const LinearRgb& rgb, double alpha) {
-  bool finite = write(0, x, y, rgb.r);
-  finite &= write(1, x, y, rgb.g);
-  finite &= write(2, x, y, rgb.b);
-  return finite & write(3, x, y, alpha);
 }
 
 bool PixelWriter::data(int x, int y, const SurfaceRecord& record) {

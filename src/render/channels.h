@@ -1,6 +1,8 @@
 // Which channels an image has, and how a pixel's numbers go into them.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "backlight/film/image.h"
@@ -23,14 +25,25 @@ class PixelWriter {
   PixelWriter(const Scene& scene, Image& image, std::size_t view);
 
   /// Each returns whether all it wrote is finite as a float.
-  bool colour(int x, int y, const LinearRgb& rgb, double alpha);
+  bool colour(int x, int y, const LinearRgb& rgb, double alpha) {
+    const std::size_t at = image_.offset(x, y);
+    const float values[4] = {static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b),
+                             static_cast<float>(alpha)};
+    bool finite = true;
+    for (std::size_t c = 0; c < 4; ++c) {
+      colour_[c][at] = values[c];
+      finite &= std::isfinite(values[c]);
+    }
+    return finite;
+  }
   bool data(int x, int y, const SurfaceRecord& record);
 
  private:
   bool write(std::size_t channel, int x, int y, double value);
 
   Image& image_;
-  std::size_t first_;  // channel
+  std::size_t first_;             // channel
+  std::array<float*, 4> colour_;  // planes
   std::vector<double (*)(const SurfaceRecord&)> data_;
 };
 

@@ -121,10 +121,11 @@ class ViewRenderer {
     pixels.clear();
     for (int top = box.y0; top < box.y1; top += block_size) {
       for (int left = box.x0; left < box.x1; left += block_size) {
-        for (int y = top; y < std::min(top + block_size, box.y1); ++y) {
-          for (int x = left; x < std::min(left + block_size, box.x1); ++x) {
-            if (done_[image_.offset(x, y)] == 0) pixels.push_back({x, y});
-          }
+        for (unsigned i = 0; i < block_size * block_size; ++i) {
+          // Squares within squares: neighbours in this order are neighbours in the image.
+          const int x = left + static_cast<int>((i & 1U) | ((i >> 1U) & 2U) | ((i >> 2U) & 4U));
+          const int y = top + static_cast<int>(((i >> 1U) & 1U) | ((i >> 2U) & 2U) | ((i >> 3U) & 4U));
+          if (x < box.x1 && y < box.y1 && done_[image_.offset(x, y)] == 0) pixels.push_back({x, y});
         }
       }
     }
@@ -135,14 +136,17 @@ class ViewRenderer {
     list_missing(box, m.pixels);
     const Scene& scene = tracer_.scene();
     const int samples = scene.film.samples;
+    const bool data = has_data_channels(scene);
     const bool records = samples == 1 && has_data_channels(scene) && !has_light_channels(scene);
-    m.sums.assign(m.pixels.size(), LinearRgb{0.0});
-    m.covered.assign(m.pixels.size(), 0);
+    if (samples > 1) {
+      m.sums.assign(m.pixels.size(), LinearRgb{0.0});
+      m.covered.assign(m.pixels.size(), 0);
+    }
     const auto begin = std::chrono::steady_clock::now();
     for (int i = 0; i < samples; ++i) {
       if (stop.load(std::memory_order_relaxed) && !is_worth_finishing(begin, i, samples)) return;
       sheets_->trace(m.pixels, settings_.image_number, i, eye_, records, *m.sheet, m.scratch, m.light);
-      for (std::size_t k = 0; k < m.pixels.size(); ++k) {
+      for (std::size_t k = 0; k < m.pixels.size() && samples > 1; ++k) {
         if (m.light.covered[k] == 0) continue;
         m.sums[k] += m.light.colour[k];
         ++m.covered[k];
@@ -150,13 +154,15 @@ class ViewRenderer {
     }
     for (std::size_t k = 0; k < m.pixels.size(); ++k) {
       const auto [x, y] = m.pixels[k];
-      LinearRgb colour = m.sums[k] / double(samples);
-      if (m.covered[k] > 0 && tracer_.has_stars()) colour += tracer_.stars(x, y, eye_, m.scratch);
-      bool finite = writer_.colour(x, y, colour, double(m.covered[k]) / samples);
+      const int covered = samples == 1 ? m.light.covered[k] : m.covered[k];
+      LinearRgb colour = samples == 1 ? LinearRgb{0.0} + m.light.colour[k] : m.sums[k] / double(samples);
+      if (covered > 0 && tracer_.has_stars()) colour += tracer_.stars(x, y, eye_, m.scratch);
+      const double alpha = samples == 1 ? double(covered) : double(covered) / samples;
+      bool finite = writer_.colour(x, y, colour, alpha);
       if (records) {
         finite &= writer_.data(x, y, m.light.record[k]);
-      } else if (has_data_channels(scene)) {
-        finite &= data(x, y, m.scratch);
+      } else if (data) {
+        finite &= this->data(x, y, m.scratch);
       }
       if (!finite) ++m.scratch.counts.non_finite;
       done_[image_.offset(x, y)] = 1;

@@ -41,6 +41,13 @@ struct SheetRays {
   alignas(64) double who[sheet_size];     ///< whose it is (an index, exact as a double), or -1
 };
 
+/// A Lens of the perspective projection.
+struct LaneLens {
+  double width, height;
+  double scale;  ///< tan(fov/2)
+  double forward[3], right[3], up[3];
+};
+
 /// n·m >= h for the directions n that may meet something: docs/physics.md equation (15).
 struct LaneCone {
   double axis[3]{};  ///< m
@@ -172,8 +179,8 @@ struct LaneReflection {
 struct SheetKernels {
   const char* name;
   int width;
-  /// Unit vectors along forward + x right + y up.
-  void (*look)(const double* x, const double* y, const double (*axes)[3], SheetRays& rays);
+  /// The looking directions of a perspective image at the points (x, y): camera/projection.h.
+  void (*look)(const LaneLens& lens, const double* x, const double* y, SheetRays& rays);
   /// The smallest bundle about the mean of the rays.
   Bundle (*bundle)(const SheetRays& rays);
   /// Copies the cones that the bundle may meet; `to` has room for all.
@@ -196,11 +203,12 @@ struct SheetKernels {
   /// What follows from points however found: `to_camera`, proper time, D, and the normal's side.
   void (*face)(const LaneFrame& frame, const double* error_bound, PointSheet& points);
   void (*arrive)(const LaneLamp& lamp, PointSheet& points);
-  /// The bundle of light that reaches the lit points; false when there are none.
-  bool (*light_bundle)(PointSheet& points, Bundle& bundle);
+  /// The bundle of light that reaches the lit points from `first` to `last` (whole registers); false when
+  /// there are none.
+  bool (*light_bundle)(const PointSheet& points, int first, int last, Bundle& bundle);
   /// Unlights the points that the occluder (sphere or plane) shades; for any other surface, sets `trial`.
   /// Returns whether anything was lit or is to be tried.
-  bool (*occlude)(const LaneOccluder& occluder, PointSheet& points);
+  bool (*occlude)(const LaneOccluder& occluder, int first, int last, PointSheet& points);
   /// Irradiance and Phong's lobe of the lit points.
   void (*reflect)(const LaneReflection& reflection, PointSheet& points);
   /// rgb += irradiance (diffuse/π + specular lamp) where lit.

@@ -65,10 +65,13 @@ struct KernelsOf {
   using V3 = LaneVec3<V>;
   using Mask = LaneMask<N>;
 
-  static void look(const double* x, const double* y, const double (*axes)[3], SheetRays& rays) {
-    const V3 forward(axes[0]), right(axes[1]), up(axes[2]);
+  static void look(const LaneLens& lens, const double* across, const double* down, SheetRays& rays) {
+    const V3 forward(lens.forward), right(lens.right), up(lens.up);
+    const V width(lens.width), height(lens.height), scale(lens.scale);
     for (int i = 0; i < rays.padded; i += N) {
-      const V3 d = forward + V::load(x + i) * right + V::load(y + i) * up;
+      const V x = (V(2.0) * V::load(across + i) / width - V(1.0)) * scale;
+      const V y = (V(1.0) - V(2.0) * V::load(down + i) / height) * scale * height / width;
+      const V3 d = forward + x * right + y * up;
       store3(d / length(d), rays.direction, i);
     }
   }
@@ -313,11 +316,11 @@ struct KernelsOf {
     for (int i = p.count; i < p.padded; ++i) p.lit[i] = 0.0;
   }
 
-  static bool light_bundle(PointSheet& p, Bundle& bundle) {
+  static bool light_bundle(const PointSheet& p, int begin_at, int end_at, Bundle& bundle) {
     V3 sum{V(0.0), V(0.0), V(0.0)};
     V first = __builtin_inf(), last = -__builtin_inf();
     bool any = false;
-    for (int i = 0; i < p.padded; i += N) {
+    for (int i = begin_at; i < end_at; i += N) {
       const Mask lit = V::load(p.lit + i) > V(0.0);
       if (bits(lit) == 0) continue;
       any = true;
@@ -338,7 +341,7 @@ struct KernelsOf {
     if (!(size > 0.0)) return true;
     for (int k = 0; k < 3; ++k) bundle.axis[k] = s[k] / size;
     V least = 2.0;
-    for (int i = 0; i < p.padded; i += N) {
+    for (int i = begin_at; i < end_at; i += N) {
       const Mask lit = V::load(p.lit + i) > V(0.0);
       const V c = -dot(load3<V>(p.way, i), V3(bundle.axis)) / V::load(p.way_length + i);
       least = select(lit & (c < least), c, least);
@@ -347,12 +350,27 @@ struct KernelsOf {
     return true;
   }
 
-  static bool occlude(const LaneOccluder& o, PointSheet& p) {
+  // Whether the segment may meet the sphere: its closest approach to the centre, without a division, and with
+  // room for the rounding of its squares. `length` is the ray's own: it is null.
+  static BACKLIGHT_LANES Mask may_meet(const LaneSurface& surface, const LaneRay<V>& ray, V length,
+                                       double end) {
+    const V3 o = ray.origin - V3(surface.centre);
+    const V square = dot(o, o);
+    const V along = dot(o, ray.direction);
+    const V radius = V(surface.bounding_radius) + V(4e-15) * largest_coordinate(o);
+    const V reach = radius * length * V(1.0 + 1e-11);
+    const V square_length = dot(ray.direction, ray.direction);
+    return (square * square_length - along * along <= reach * reach + V(1e-14) * square * square_length) &
+           (along <= reach) & (-along <= V(end) * square_length + reach);
+  }
+
+  static bool occlude(const LaneOccluder& o, int first, int last, PointSheet& p) {
     const V3 axis(o.cone.axis), origin(o.frame->origin);
     const bool own = p.frame == o.frame_index;
     const bool one_by_one = o.surface->kind == LaneSurface::Kind::other;
+    const bool round = o.surface->kind == LaneSurface::Kind::sphere;
     bool any = false;
-    for (int i = 0; i < p.padded; i += N) {
+    for (int i = first; i < last; i += N) {
       const V lit = V::load(p.lit + i);
       Mask open = lit > V(0.0);
       const V3 way = load3<V>(p.way, i);
@@ -380,6 +398,10 @@ struct KernelsOf {
         time.store(p.trial_time + i);
         rate.store(p.trial_rate + i);
         continue;
+      }
+      if (round) {
+        open = open & may_meet(*o.surface, ray, -rate, o.end);
+        if (bits(open) == 0) continue;
       }
       const LaneCrossing<V> crossing = lane_crossing(*o.surface, ray);
       const Mask blocked = open & crossing.found & (crossing.lambda < V(o.end));

@@ -17,6 +17,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // With fewer occluders than this, each chunk of points looks at all of them.
 constexpr int tile_list_from = 48;
 
+// As many points have a list of occluders of their own.
+constexpr int few = 16;
+
 Vec3 vec(const double (&from)[3][sheet_size], int lane) {
   return {from[0][lane], from[1][lane], from[2][lane]};
 }
@@ -46,6 +49,7 @@ SheetScratch::SheetScratch(const SheetScene& scene, std::size_t lights)
   sheet_cones.resize(scene.occupants().size());
   for (LampStore& lamps : tile_lamps) lamps.resize(scene.occluders().size());
   chunk_lamps.resize(scene.occluders().size());
+  near_lamps.resize(scene.occluders().size());
   lamp_cones.resize(scene.occluders().size());
 }
 
@@ -187,15 +191,15 @@ void SheetShader::fill_diffuse(std::size_t light, int index) {
   for (int i = p.count; i < p.padded; ++i) put(LinearRgb{0.0}, p.diffuse, i);
 }
 
-void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, const Occupant& lit,
-                                 std::span<const Hit> hits) {
+void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Range range,
+                                 const Occupant& lit, std::span<const Hit> hits) {
   PointSheet& p = work_.points;
   const Hub& hub = tracer_.hub();
   const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(occluder.frame)].scene->surfaces;
   const double end = tracer_.scene().lights[light].kind == LightKind::distant ? infinity : 1.0;
   const bool far = sheets_.one_by_one(occluder.frame) ||
                    hub.lights[light].to_frame[static_cast<std::size_t>(occluder.frame)].is_robust();
-  for (int i = 0; i < p.count; ++i) {
+  for (int i = range.first; i < std::min(range.last, p.count); ++i) {
     if (!(p.trial[i] > 0.0)) continue;
     bool dark = false;
     const RayClock clock{p.trial_time[i], p.trial_rate[i]};
@@ -219,7 +223,7 @@ void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, co
   }
 }
 
-void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone,
+void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone, Range range,
                                const Occupant& lit, std::span<const Hit> hits) {
   const auto frame = static_cast<std::size_t>(occluder.frame);
   LaneOccluder lanes{&sheets_.eye(eye_).frames[frame],
@@ -232,8 +236,9 @@ void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, cons
   LaneSurface none;
   const bool robust = tracer_.hub().lights[light].to_frame[frame].is_robust();
   if (robust) lanes.surface = &none;  // of kind `other`: one by one
-  if (sheets_.kernels().occlude(lanes, work_.points) && lanes.surface->kind == LaneSurface::Kind::other) {
-    try_one_by_one(light, occluder, lit, hits);
+  if (sheets_.kernels().occlude(lanes, range.first, range.last, work_.points) &&
+      lanes.surface->kind == LaneSurface::Kind::other) {
+    try_one_by_one(light, occluder, range, lit, hits);
   }
 }
 
@@ -242,22 +247,34 @@ void SheetShader::shadow(std::size_t light, const Occupant& occupant, std::span<
   LaneCone everything;
   everything.level = -infinity;
   for (const int i : view.unbounded) {
-    try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(i)], everything, occupant, hits);
+    try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(i)], everything,
+                 {0, work_.points.padded}, occupant, hits);
   }
   if (view.bounded.table().count == 0) return;
   if (tracer_.scene().lights[light].kind == LightKind::distant) {
     shadow_of_distant(light, occupant, hits);
     return;
   }
-  Bundle bundle;
-  if (!sheets_.kernels().light_bundle(work_.points, bundle)) return;
+  // What may shade anything of the tile, of it what may shade anything of this sheet, of that what may shade
+  // a few neighbours: each list is made from the one before.
   const bool listed = view.bounded.table().count >= tile_list_from;
-  LampTable& near = work_.chunk_lamps.table();
-  sheets_.kernels().overlapping_lamps(listed ? work_.tile_lamps[light].table() : view.bounded.table(), bundle,
-                                      near, work_.lamp_cones.data());
-  for (int i = 0; i < near.count; ++i) {
-    try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(near.who[i])],
-                 work_.lamp_cones[static_cast<std::size_t>(i)], occupant, hits);
+  const SheetKernels& kernels = sheets_.kernels();
+  const PointSheet& p = work_.points;
+  Bundle bundle;
+  if (!kernels.light_bundle(p, 0, p.padded, bundle)) return;
+  const LampTable& all = listed ? work_.tile_lamps[light].table() : view.bounded.table();
+  const bool many_points = p.padded > few;
+  if (many_points) kernels.overlapping_lamps(all, bundle, work_.chunk_lamps.table(), nullptr);
+  LampTable& near = work_.near_lamps.table();
+  for (int first = 0; first < p.padded; first += few) {
+    const int last = std::min(first + few, p.padded);
+    if (!kernels.light_bundle(p, first, last, bundle)) continue;
+    kernels.overlapping_lamps(many_points ? work_.chunk_lamps.table() : all, bundle, near,
+                              work_.lamp_cones.data());
+    for (int i = 0; i < near.count; ++i) {
+      try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(near.who[i])],
+                   work_.lamp_cones[static_cast<std::size_t>(i)], {first, last}, occupant, hits);
+    }
   }
 }
 
@@ -288,8 +305,8 @@ void SheetShader::shadow_of_distant(std::size_t light, const Occupant& occupant,
     const double along = glm::dot(x, k) / glm::length(k);
     const double aside = glm::dot(x, x) - along * along;
     if (along > radius || aside > radius * radius + 1e-12 * glm::dot(x, x)) continue;
-    try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(table.who[i])], everything, occupant,
-                 hits);
+    try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(table.who[i])], everything,
+                 {0, p.padded}, occupant, hits);
   }
 }
 
@@ -345,45 +362,34 @@ void SheetShader::light_rgb(const Occupant& occupant, const Material& material, 
 void SheetShader::light_spectra(const Occupant& occupant, const Material& material, const Effects& effects,
                                 std::span<const Hit> hits) {
   PointSheet& p = work_.points;
-  const std::size_t n = scratch_.wavelengths.size();
-  std::vector<double>& radiance = scratch_.sheet_radiance;
-  std::vector<double>& reflectance = scratch_.sheet_reflectance;
-  radiance.resize(n * sheet_size);
-  reflectance.resize(n * sheet_size);
-  const auto row = [n](std::vector<double>& all, int lane) {
-    return all.begin() + static_cast<std::ptrdiff_t>(n) * lane;
-  };
-  const auto wavelengths_of = [&](int lane) {
-    const DopplerFactor<Camera, Rest> doppler{p.doppler[lane]};
-    for (std::size_t k = 0; k < n; ++k) {
-      scratch_.wavelengths[k] = wavelength_at_origin(doppler, tracer_.wavelengths().nm()[k]);
-    }
-  };
-  for (int lane = 0; lane < p.count; ++lane) {
-    wavelengths_of(lane);
-    begin_spectrum(material, p.u[lane], p.v[lane], scratch_);
-    std::copy(scratch_.radiance.begin(), scratch_.radiance.end(), row(radiance, lane));
-    std::copy(scratch_.reflectance.begin(), scratch_.reflectance.end(), row(reflectance, lane));
-  }
-  for (std::size_t i = 0; i < tracer_.scene().lights.size(); ++i) {
+  const std::vector<Light>& lights = tracer_.scene().lights;
+  // First what of each lamp reaches the points, then, point by point, its spectrum.
+  work_.lamp_light.resize(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
     LaneReflection reflection;
-    if (!light_arrives(i, occupant, effects, material, hits, reflection)) continue;
-    for (int lane = 0; lane < p.count; ++lane) {
-      if (!(p.lit[lane] > 0.0)) continue;
-      wavelengths_of(lane);
-      std::copy_n(row(radiance, lane), n, scratch_.radiance.begin());
-      std::copy_n(row(reflectance, lane), n, scratch_.reflectance.begin());
-      add_spectrum(tracer_.scene().lights[i], {p.lamp_doppler[lane]}, p.irradiance[lane], p.specular[lane],
-                   scratch_);
-      std::copy(scratch_.radiance.begin(), scratch_.radiance.end(), row(radiance, lane));
-    }
+    SheetScratch::Lamp& lamp = work_.lamp_light[i];
+    lamp.arrives = light_arrives(i, occupant, effects, material, hits, reflection);
+    if (!lamp.arrives) continue;
+    std::copy_n(p.lit, p.count, lamp.lit);
+    std::copy_n(p.irradiance, p.count, lamp.irradiance);
+    std::copy_n(p.specular, p.count, lamp.specular);
+    std::copy_n(p.lamp_doppler, p.count, lamp.doppler);
   }
   const double gamma = tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].from_camera.gamma();
   for (int lane = 0; lane < p.count; ++lane) {
     const DopplerFactor<Camera, Rest> doppler{p.doppler[lane]};
+    for (std::size_t k = 0; k < scratch_.wavelengths.size(); ++k) {
+      scratch_.wavelengths[k] = wavelength_at_origin(doppler, tracer_.wavelengths().nm()[k]);
+    }
+    begin_spectrum(material, p.u[lane], p.v[lane], scratch_);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      const SheetScratch::Lamp& lamp = work_.lamp_light[i];
+      if (!lamp.arrives || !(lamp.lit[lane] > 0.0)) continue;
+      add_spectrum(lights[i], {lamp.doppler[lane]}, lamp.irradiance[lane], lamp.specular[lane], scratch_);
+    }
     const double factor =
         radiance_factor(doppler, gamma, effects.towards_camera()) * wavelength_density_factor(doppler);
-    put(factor * tracer_.wavelengths().film(&*row(radiance, lane)), p.rgb, lane);
+    put(factor * tracer_.wavelengths().film(scratch_.radiance.data()), p.rgb, lane);
   }
 }
 

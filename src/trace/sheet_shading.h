@@ -15,15 +15,18 @@ struct SheetScratch {
     SheetRays rays;
     const Effects* effects = nullptr;
     Bundle bundle;
-    int place[sheet_size];  ///< index of the pixel in the tile
-    Hit hit[sheet_size];    ///< of surfaces that take one ray at a time
+    int place[sheet_size];        ///< index of the pixel in the tile
+    int part[sheet_size];         ///< face, of surfaces that take one ray at a time
+    bool unresolved[sheet_size];  ///< and whether its root was isolated
   };
-  std::vector<TileSheet> sheets;
-  std::vector<FirstHit> far_hits;     ///< by place: of frames that take one ray at a time
-  ConeStore tile_cones;               ///< what the whole tile may meet
-  ConeStore sheet_cones;              ///< what one sheet may meet
-  std::vector<LampStore> tile_lamps;  ///< by light: what may shade any of the tile's hits
-  LampStore chunk_lamps;
+  std::span<TileSheet> sheets;          ///< those in use...
+  std::vector<TileSheet> sheet_memory;  ///< ...of these, which are not cleared between tiles
+  std::vector<FirstHit> far_hits;       ///< by place: of frames that take one ray at a time
+  ConeStore tile_cones;                 ///< what the whole tile may meet
+  ConeStore sheet_cones;                ///< what one sheet may meet
+  std::vector<LampStore> tile_lamps;    ///< by light: what may shade any of the tile's hits
+  LampStore chunk_lamps;                ///< what may shade any of the points of a sheet...
+  LampStore near_lamps;                 ///< ...and a few of them
   std::vector<LaneCone> lamp_cones;
   // Hits sorted by what was hit:
   struct Group {
@@ -35,6 +38,15 @@ struct SheetScratch {
   std::vector<Group> groups;
   std::vector<int> order;  ///< sheet * sheet_size + lane
   PointSheet points;
+  /// What of a lamp reaches them, for spectra.
+  struct Lamp {
+    bool arrives;
+    double lit[sheet_size];
+    double irradiance[sheet_size];
+    double specular[sheet_size];
+    double doppler[sheet_size];
+  };
+  std::vector<Lamp> lamp_light;
 };
 
 /// Shades sheets of points of one image.
@@ -60,9 +72,14 @@ class SheetShader {
   void fill_strength(const Light& light, std::size_t index);
   void fill_diffuse(std::size_t light, int material);
   void shadow(std::size_t light, const Occupant& occupant, std::span<const Hit> hits);
-  void try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone, const Occupant& lit,
-                    std::span<const Hit> hits);
-  void try_one_by_one(std::size_t light, const Occupant& occluder, const Occupant& lit,
+  /// Of points.
+  struct Range {
+    int first;
+    int last;
+  };
+  void try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone, Range range,
+                    const Occupant& lit, std::span<const Hit> hits);
+  void try_one_by_one(std::size_t light, const Occupant& occluder, Range range, const Occupant& lit,
                       std::span<const Hit> hits);
   void shadow_of_distant(std::size_t light, const Occupant& occupant, std::span<const Hit> hits);
   void light_rgb(const Occupant& occupant, const Material& material, int material_index,

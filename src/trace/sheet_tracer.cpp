@@ -34,16 +34,22 @@ class SheetMaker {
 
   // The sheets' order is that of the pixels, and does not change a bit.
   void make(std::span<const TilePixel> pixels, std::int64_t image_number, int sample) {
-    work_.sheets.clear();
+    used_ = 0;
+    const std::size_t most = (pixels.size() / sheet_size + 1) * (scene_.regions.size() + 1);
+    if (work_.sheet_memory.size() < most) work_.sheet_memory.resize(most);
     for (std::size_t begin = 0; begin < pixels.size(); begin += sheet_size) {
       const std::size_t end = std::min(begin + sheet_size, pixels.size());
       points_.clear();
-      for (std::size_t i = begin; i < end; ++i) {
+      if (scene_.film.samples == 1) {
+        for (std::size_t i = begin; i < end; ++i) points_.push_back({pixels[i].x + 0.5, pixels[i].y + 0.5});
+      }
+      for (std::size_t i = begin; i < end && scene_.film.samples > 1; ++i) {
         const SampleKey key{scene_.film.seed, image_number, pixels[i].x, pixels[i].y};
         points_.push_back(sample_point(key, sample, scene_.film.samples));
       }
       add_sheets(static_cast<int>(begin));
     }
+    work_.sheets = {work_.sheet_memory.data(), used_};
   }
 
  private:
@@ -58,7 +64,7 @@ class SheetMaker {
   }
 
   void add_sheet(const Effects& effects, int first_place) {
-    TileSheet& sheet = work_.sheets.emplace_back();
+    TileSheet& sheet = work_.sheet_memory[used_];
     SheetRays& rays = sheet.rays;
     sheet.effects = &effects;
     rays.light_delay = effects.light_delay;
@@ -67,14 +73,13 @@ class SheetMaker {
     alignas(64) double x[sheet_size];
     alignas(64) double y[sheet_size];
     const Lens& lens = scene_.camera.lens;
-    const double scale = flat ? std::tan(0.5 * lens.fov) : 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const ImagePoint& point = points_[i];
       if (!scene_.regions.empty() && &effects_at(scene_, point) != &effects) continue;
       const int lane = rays.count;
       if (flat) {
-        x[lane] = (2.0 * point.x / lens.width - 1.0) * scale;
-        y[lane] = (1.0 - 2.0 * point.y / lens.height) * scale * lens.height / lens.width;
+        x[lane] = point.x;
+        y[lane] = point.y;
       } else {
         const auto direction = direction_at(lens, point);
         if (!direction) continue;
@@ -83,10 +88,8 @@ class SheetMaker {
       sheet.place[lane] = first_place + static_cast<int>(i);
       ++rays.count;
     }
-    if (rays.count == 0) {
-      work_.sheets.pop_back();
-      return;
-    }
+    if (rays.count == 0) return;
+    ++used_;
     rays.padded = (rays.count + 3) / 4 * 4;
     for (int lane = rays.count; lane < rays.padded; ++lane) {
       x[lane] = x[rays.count - 1];
@@ -94,13 +97,13 @@ class SheetMaker {
       for (auto& row : rays.direction) row[lane] = row[rays.count - 1];
     }
     if (flat) {
-      double axes[3][3];
+      LaneLens lanes{double(lens.width), double(lens.height), std::tan(0.5 * lens.fov), {}, {}, {}};
       for (int k = 0; k < 3; ++k) {
-        axes[0][k] = lens.forward[k];
-        axes[1][k] = lens.right[k];
-        axes[2][k] = lens.up[k];
+        lanes.forward[k] = lens.forward[k];
+        lanes.right[k] = lens.right[k];
+        lanes.up[k] = lens.up[k];
       }
-      kernels_.look(x, y, axes, rays);
+      kernels_.look(lanes, x, y, rays);
     }
     std::fill_n(rays.lambda, rays.padded, infinity);
     std::fill_n(rays.who, rays.padded, -1.0);
@@ -110,11 +113,12 @@ class SheetMaker {
   const Scene& scene_;
   const SheetKernels& kernels_;
   SheetScratch& work_;
+  std::size_t used_ = 0;
   std::vector<ImagePoint> points_;
 };
 
 // A bundle around those of all sheets.
-Bundle around(const std::vector<TileSheet>& sheets) {
+Bundle around(std::span<const TileSheet> sheets) {
   Vec3 sum{0.0};
   for (const TileSheet& sheet : sheets) {
     for (int k = 0; k < 3; ++k) sum[k] += sheet.bundle.axis[k];
@@ -192,7 +196,8 @@ class SheetSearch {
       if (!(hit.lambda < sheet.rays.lambda[lane])) continue;
       sheet.rays.lambda[lane] = hit.lambda;
       sheet.rays.who[lane] = who;
-      sheet.hit[lane] = hit;
+      sheet.part[lane] = hit.part;
+      sheet.unresolved[lane] = hit.unresolved;
     }
   }
 
@@ -323,7 +328,8 @@ class SheetPainter {
       p.lambda[i] = sheet.rays.lambda[lane];
       p.lane[i] = from;
       const bool other = occupant.lanes.kind == LaneSurface::Kind::other;
-      hits_[i] = other ? sheet.hit[lane] : Hit{sheet.rays.lambda[lane], occupant.surface, 0, false};
+      hits_[i] = {sheet.rays.lambda[lane], occupant.surface, other ? sheet.part[lane] : 0,
+                  other && sheet.unresolved[lane]};
     }
     const bool lit = scene_.lit_in_lanes(occupant.frame);
     if (!lit || !shader_.shade(occupant, effects, {hits_, static_cast<std::size_t>(count)})) {

@@ -30,9 +30,6 @@ struct Scratch {
   std::vector<double> reflectance;
   std::vector<double> lamp;
   std::vector<double> radiance;
-  // The same of each point of a sheet, one after the other:
-  std::vector<double> sheet_radiance;
-  std::vector<double> sheet_reflectance;
 };
 
 /// What the shading of one image reads.
