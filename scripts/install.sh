@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a group of tasks needs, and only those that are missing.
 #
-#   scripts/install.sh [build] [test] [ci] [bench] [charts] [oracle]      (default: build)
+#   scripts/install.sh [build] [test] [ci] [bench] [charts] [oracle] [farm]      (default: build)
 #
 #   build    compiler, CMake and libraries: what scripts/render.sh needs
 #   test     what the tests need besides
 #   ci       the second compiler and the formatter of .ci/run
 #   bench    kernel benchmarks
 #   charts   what scripts/gallery.sh and the charts of docs/ need besides
+#   farm     a Slurm for this machine alone, and GNU parallel: what tests/farm/run.sh needs
 #   oracle   mpmath, to recompute the reference values that the tests hold as literals
 #
 # Made for Debian 12. With everything present it needs neither root nor network.
@@ -15,17 +16,18 @@ set -euo pipefail
 
 declare -A packages=(
   [build]="g++ cmake ninja-build pkgconf libopenexr-dev libopenimageio-dev libglm-dev libtomlplusplus-dev libcli11-dev"
-  [test]="libgtest-dev nlohmann-json3-dev openimageio-tools"
+  [test]="libgtest-dev nlohmann-json3-dev openimageio-tools libmpfr-dev libgmp-dev"
   [ci]="clang-14 clang-format-14"
   [bench]="libbenchmark-dev"
   [charts]="gnuplot-nox python3"
+  [farm]="slurmctld slurmd slurm-client munge parallel"
   [oracle]="python3 python3-mpmath"
 )
 
 wanted=()
 for group in "${@:-build}"; do
   if [[ -z ${packages[$group]:-} ]]; then
-    echo "scripts/install.sh: no group '$group'; there are: build test ci bench charts oracle" >&2
+    echo "scripts/install.sh: no group '$group'; there are: build test ci bench charts farm oracle" >&2
     exit 2
   fi
   read -ra names <<<"${packages[$group]}"

@@ -36,6 +36,38 @@ std::string padding(const std::string& line, int columns) {
   return pad;
 }
 
+// Characters [first, first + count) of a line, which may have fewer.
+std::string characters(const std::string& line, int first, int count) {
+  std::string part;
+  int place = -1;
+  for (const char c : line) {
+    if (!continues_code_point(c)) ++place;
+    if (place >= first + count) break;
+    if (place >= first) part += c;
+  }
+  return part;
+}
+
+// The source line with a mark under `length` characters from `column`. Of a line that is too long to be read,
+// a piece.
+std::string marked_line(const std::string& line, int column, int length) {
+  constexpr int longest = 200;
+  constexpr int before = 60;
+  const int size = static_cast<int>(
+      std::count_if(line.begin(), line.end(), [](char c) { return !continues_code_point(c); }));
+  std::string shown = line;
+  if (size > longest) {
+    const int first = std::max(0, column - 1 - before);
+    const std::string lead = first > 0 ? "..." : "";
+    shown = lead + characters(line, first, longest) + (first + longest < size ? "..." : "");
+    column += static_cast<int>(lead.size()) - first;
+    length = std::min(length, longest - (column - 1));
+  }
+  std::string text = "\n  " + shown + "\n  " + padding(shown, column - 1) + "^";
+  if (length > 1) text.append(static_cast<std::size_t>(length - 1), '~');
+  return text;
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   std::vector<std::size_t> row(b.size() + 1);
@@ -76,9 +108,7 @@ std::string format(const Diagnostic& diagnostic) {
   out += severity;
   out += ": " + diagnostic.message;
   if (span.source && span.line > 0) {
-    const std::string line = source_line(span.source->text, span.line);
-    out += "\n  " + line + "\n  " + padding(line, span.column - 1) + "^";
-    if (span.length > 1) out.append(static_cast<std::size_t>(span.length - 1), '~');
+    out += marked_line(source_line(span.source->text, span.line), span.column, span.length);
   }
   if (!diagnostic.hint.empty()) out += "\n  " + diagnostic.hint;
   return out;

@@ -3,7 +3,10 @@
 #include "bounds.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "backlight/expression/operations.h"
 
 #include "bounds_parts.h"
 
@@ -33,24 +36,19 @@ Bounds product(const Bounds& a, const Bounds& b, Continuity continuity) {
   return {minus_lower, upper, continuity};
 }
 
-/// |x|ⁿ rounded up, and minus |x|ⁿ rounded down.
+/// |x|ⁿ rounded up, and minus |x|ⁿ rounded down. The same products as those of the function for doubles, so
+/// that its value lies between the two.
 double power_up(double magnitude, unsigned n) {
-  double result = 1.0;
-  for (double square = magnitude;; square *= square) {
-    if ((n & 1U) != 0) result *= square;
-    n >>= 1U;
-    if (n == 0) return result;
-  }
+  return integer_power(magnitude, n);
 }
 double minus_power_down(double magnitude, unsigned n) {
-  double result = -1.0;
-  for (double minus_square = -magnitude;; minus_square = -minus_square * minus_square) {
-    // -(a·b) rounded up is minus a·b rounded down
-    if ((n & 1U) != 0) result = result * -minus_square;
-    n >>= 1U;
-    if (n == 0) return result;
-    if (minus_square == 0.0) return 0.0;
+  // -(a·b) rounded up is minus a·b rounded down.
+  double minus = -magnitude;
+  for (int bit = static_cast<int>(std::bit_width(n)) - 2; bit >= 0; --bit) {
+    minus = -minus * minus;
+    if ((n >> bit & 1U) != 0) minus *= magnitude;
   }
+  return minus;
 }
 
 }  // namespace

@@ -83,8 +83,9 @@ Bounds whole_power(const Bounds& a, double n) {
   if (n < 0.0) return Bounds(1.0) / whole_power(a, -n);
   const bool even = std::fmod(n, 2.0) == 0.0;
   if (even) {
-    return {widened(-library_pow(least_magnitude(a), n)),
-            widened(library_pow(std::max(a.minus_lower, a.upper), n)), a.continuity};
+    return clipped({widened(-library_pow(least_magnitude(a), n)),
+                    widened(library_pow(std::max(a.minus_lower, a.upper), n)), a.continuity},
+                   0.0, infinity);
   }
   return {widened(-library_pow(-a.minus_lower, n)), widened(library_pow(a.upper, n)), a.continuity};
 }
@@ -134,8 +135,8 @@ Bounds atan2(const Bounds& y, const Bounds& x) {
   if (continuity == Continuity::undefined) return nowhere();
   const bool touches_axis = y.minus_lower >= 0.0 && y.upper >= 0.0;
   const bool holds_origin = touches_axis && x.minus_lower >= 0.0 && x.upper >= 0.0;
-  const bool crosses_cut =
-      touches_axis && (y.minus_lower > 0.0 || std::signbit(y.upper)) && x.minus_lower > 0.0;
+  // From which side of the cut a zero comes is told by its sign, which intervals do not keep.
+  const bool crosses_cut = touches_axis && x.minus_lower > 0.0;
   if (holds_origin || crosses_cut) {
     const double half_turn = widened(pi);
     return {half_turn, half_turn,
@@ -145,7 +146,7 @@ Bounds atan2(const Bounds& y, const Bounds& x) {
   Bounds result{-infinity, -infinity, continuity};
   for (const double ordinate : {-y.minus_lower, y.upper}) {
     for (const double abscissa : {-x.minus_lower, x.upper}) {
-      const double angle = at_nearest<double, double>(std::atan2, ordinate + 0.0, abscissa);
+      const double angle = at_nearest<double, double>(std::atan2, ordinate, abscissa);
       result.minus_lower = std::max(result.minus_lower, widened(-angle));
       result.upper = std::max(result.upper, widened(angle));
     }
@@ -196,7 +197,7 @@ Bounds pow(const Bounds& a, const Bounds& b) {
   // Monotone in the base and in the exponent, so its extremes are at corners.
   for (const double x : {-base.minus_lower, base.upper}) {
     for (const double y : {-b.minus_lower, b.upper}) {
-      const double value = library_pow(x, y);
+      const double value = library_pow(x + 0.0, y);  // no -0, whose powers may be -infinity
       result.minus_lower = std::max(result.minus_lower, widened(-value));
       result.upper = std::max(result.upper, widened(value));
     }
