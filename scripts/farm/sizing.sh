@@ -10,7 +10,7 @@
 #                        on the cluster of one-machine.sh)
 #   -h, --help           print this help
 #
-# Measures at 1920x1080, a quarter of the pixels; takes about a minute, on an idle machine. BACKLIGHT names another program than build/release/bin/backlight.
+# Measures at 960x540, a sixteenth of the pixels; takes about a minute, on an idle machine. BACKLIGHT names another program than build/release/bin/backlight.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 program=${BACKLIGHT:-$top/build/release/bin/backlight}
@@ -42,12 +42,12 @@ wall_time() {
 median_of_three() { for _ in 1 2 3; do wall_time "$@"; echo; done | sort -g | sed -n 2p; }
 
 start_up=$(median_of_three 1x1 1)
-one=$(wall_time 1920x1080 1)
-three=$(wall_time 1920x1080 3)
-bytes=$(($(stat -c %s "$folder/image.exr") * 4))
+one=$(median_of_three 960x540 1)
+five=$(wall_time 960x540 5)
+bytes=$(($(stat -c %s "$folder/image.exr") * 16))
 
 echo "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1); ${scene##*/} ${options[*]}"
-awk -v up="$start_up" -v t1="$one" -v t3="$three" -v bytes="$bytes" -v s="$samples" -v frames="$((length * 24))" -v task="$task" '
+awk -v up="$start_up" -v t1="$one" -v t5="$five" -v bytes="$bytes" -v s="$samples" -v frames="$((length * 24))" -v task="$task" '
 function ceil(x) { return x == int(x) ? x : int(x) + 1 }
 function text(seconds) {
   if (seconds < 120) return sprintf("%.0f s", seconds)
@@ -64,10 +64,10 @@ function row(cores, threads, chunk,    slots, tasks, rounds, seconds) {
     text(seconds), 100 * frames * (fixed + s * sample) / (seconds * cores)
 }
 BEGIN {
-  sample = 4 * (t3 - t1) / 2
-  fixed = 4 * (t1 - up - (t3 - t1) / 2)
+  sample = 16 * (t5 - t1) / 4
+  fixed = 16 * (t1 - up - (t5 - t1) / 4)
   if (fixed < 0) fixed = 0
-  printf "measured: start-up %.3f s; 1920x1080 with 1 sample %.2f s, with 3 samples %.2f s, on one core\n", up, t1, t3
+  printf "measured: start-up %.3f s; 960x540 with 1 sample %.2f s, with 5 samples %.2f s, on one core\n", up, t1, t5
   printf "so, at 3840x2160: %.2f s a sample of each pixel (%.0f ns for one pixel), %.2f s and %.1f MB an image for the rest\n",
     sample, sample / (3840 * 2160) * 1e9, fixed, bytes / 1e6
   printf "film: %d images with %d samples = %s of one core, %.0f GB\n\n", frames, s, text(frames * (fixed + s * sample)),

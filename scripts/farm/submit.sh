@@ -158,6 +158,7 @@ if [[ $dry_run == yes ]]; then
   printf '%q ' "${array[@]}"; echo
   printf '%q ' "${gather[@]}" --dependency=afterok:ARRAY "$here/gather.sh" "$job"; echo
   rm -r "$job"
+  rmdir --ignore-fail-on-non-empty "$folder"
   exit 0
 fi
 command -v sbatch >/dev/null || fail "there is no sbatch here: this needs Slurm's client commands"
