@@ -84,6 +84,10 @@ mapfile -t images < <(grep '\.exr$' <<<"$list" | cut -f 2-)
 mapfile -t numbers < <(printf '%s\n' "${numbers[@]}" | awk '!seen[$0]++')
 
 job_folder_in() { mkdir -p "$1" && mktemp -d "$(realpath "$1")/job-XXXXXX"; }
+if [[ -n $video ]] && ! printf '%s\n' "${numbers[@]}" | sort -n | awk 'NR > 1 && $1 != last + 1 {exit 1} {last = $1}'; then
+  fail "--video: there are gaps between these frames: ${arguments[*]}"
+fi
+
 # A scene without an animation numbers its images only where there are several at a time, and a task may have just one.
 if ((${#images[@]} > 1)) && [[ $("$program" render "$scene" "${arguments[@]}" -f "${numbers[0]}" --list-frames |
   grep '\.exr$' | cut -f 2-) != "${images[0]}" ]]; then
