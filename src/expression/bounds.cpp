@@ -8,33 +8,9 @@
 
 #include "backlight/expression/operations.h"
 
-#include "bounds_parts.h"
-
 namespace backlight {
 
-Bounds::Bounds(double number) : minus_lower(-number), upper(number) {
-  if (std::isnan(number)) {
-    *this = nowhere();
-  } else if (std::isinf(number)) {
-    number > 0.0 ? minus_lower = -largest : upper = -largest;
-  }
-}
-
 namespace {
-
-/// In interval arithmetic an infinite end stands for arbitrarily large numbers, and 0 times those is 0.
-double product(double x, double y) {
-  return x == 0.0 || y == 0.0 ? 0.0 : x * y;
-}
-
-Bounds product(const Bounds& a, const Bounds& b, Continuity continuity) {
-  const double upper = std::max(std::max(product(a.minus_lower, b.minus_lower), product(a.upper, b.upper)),
-                                std::max(product(-a.minus_lower, b.upper), product(a.upper, -b.minus_lower)));
-  const double minus_lower =
-      std::max(std::max(product(a.minus_lower, b.upper), product(a.upper, b.minus_lower)),
-               std::max(product(-a.minus_lower, b.minus_lower), product(-a.upper, b.upper)));
-  return {minus_lower, upper, continuity};
-}
 
 /// |x|ⁿ rounded up, and minus |x|ⁿ rounded down. The same products as those of the function for doubles, so
 /// that its value lies between the two.
@@ -53,25 +29,6 @@ double minus_power_down(double magnitude, unsigned n) {
 
 }  // namespace
 
-Bounds operator+(const Bounds& a, const Bounds& b) {
-  const Continuity continuity = worse(a, b);
-  if (continuity == Continuity::undefined) return nowhere();
-  return {a.minus_lower + b.minus_lower, a.upper + b.upper, continuity};
-}
-
-Bounds operator-(const Bounds& a) {
-  return {a.upper, a.minus_lower, a.continuity};
-}
-
-Bounds operator-(const Bounds& a, const Bounds& b) {
-  return a + -b;
-}
-
-Bounds operator*(const Bounds& a, const Bounds& b) {
-  const Continuity continuity = worse(a, b);
-  return continuity == Continuity::undefined ? nowhere() : product(a, b, continuity);
-}
-
 Bounds operator/(const Bounds& a, const Bounds& b) {
   const Continuity continuity = worse(a, b);
   if (continuity == Continuity::undefined || (b.minus_lower == 0.0 && b.upper == 0.0)) return nowhere();
@@ -86,13 +43,6 @@ Bounds operator/(const Bounds& a, const Bounds& b) {
   const double upper = a.upper / (a.upper >= 0.0 ? nearest : b.upper);
   const double minus_lower = a.minus_lower / (a.minus_lower >= 0.0 ? nearest : b.upper);
   return {minus_lower, upper, continuity};
-}
-
-Bounds square(const Bounds& a) {
-  if (a.is_undefined()) return a;
-  const double most = std::max(a.minus_lower, a.upper);
-  const double least = least_magnitude(a);
-  return {-least * least, most * most, a.continuity};
 }
 
 Bounds integer_power(const Bounds& a, const Bounds& exponent) {

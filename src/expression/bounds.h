@@ -4,6 +4,8 @@
 // The lower end is kept with its sign changed, so that rounding upwards is outward for both ends.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "backlight/expression/interval.h"
@@ -59,5 +61,81 @@ Bounds sign(const Bounds& a);
 Bounds slope_of_minimum(const Bounds& a, const Bounds& b);
 Bounds slope_of_maximum(const Bounds& a, const Bounds& b);
 Bounds slope_of_exponent(const Bounds& a, const Bounds& v);
+
+// The operations of most formulas, here to be inlined.
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double largest = std::numeric_limits<double>::max();
+
+inline Bounds nowhere() {
+  return {-infinity, -infinity, Continuity::undefined};
+}
+inline Bounds everything(Continuity continuity) {
+  return {infinity, infinity, continuity};
+}
+inline Continuity worse(const Bounds& a, const Bounds& b) {
+  return std::max(a.continuity, b.continuity);
+}
+/// The smallest |x| in the interval.
+inline double least_magnitude(const Bounds& a) {
+  return std::max(0.0, std::max(-a.minus_lower, -a.upper));
+}
+
+inline Bounds::Bounds(double number) : minus_lower(-number), upper(number) {
+  if (std::isnan(number)) {
+    *this = nowhere();
+  } else if (std::isinf(number)) {
+    number > 0.0 ? minus_lower = -largest : upper = -largest;
+  }
+}
+
+/// In interval arithmetic an infinite end stands for arbitrarily large numbers, and 0 times those is 0.
+inline double extended_product(double x, double y) {
+  return x == 0.0 || y == 0.0 ? 0.0 : x * y;
+}
+
+inline Bounds product(const Bounds& a, const Bounds& b, Continuity continuity) {
+  // Ends that are not -infinity add up to infinity when one of them is: else there is no 0 times infinity.
+  if ((a.minus_lower + a.upper) + (b.minus_lower + b.upper) < infinity) {
+    return {std::max(std::max(a.minus_lower * b.upper, a.upper * b.minus_lower),
+                     std::max(-a.minus_lower * b.minus_lower, -a.upper * b.upper)),
+            std::max(std::max(a.minus_lower * b.minus_lower, a.upper * b.upper),
+                     std::max(-a.minus_lower * b.upper, a.upper * -b.minus_lower)),
+            continuity};
+  }
+  const double upper = std::max(
+      std::max(extended_product(a.minus_lower, b.minus_lower), extended_product(a.upper, b.upper)),
+      std::max(extended_product(-a.minus_lower, b.upper), extended_product(a.upper, -b.minus_lower)));
+  const double minus_lower = std::max(
+      std::max(extended_product(a.minus_lower, b.upper), extended_product(a.upper, b.minus_lower)),
+      std::max(extended_product(-a.minus_lower, b.minus_lower), extended_product(-a.upper, b.upper)));
+  return {minus_lower, upper, continuity};
+}
+
+inline Bounds operator+(const Bounds& a, const Bounds& b) {
+  const Continuity continuity = worse(a, b);
+  if (continuity == Continuity::undefined) return nowhere();
+  return {a.minus_lower + b.minus_lower, a.upper + b.upper, continuity};
+}
+
+inline Bounds operator-(const Bounds& a) {
+  return {a.upper, a.minus_lower, a.continuity};
+}
+
+inline Bounds operator-(const Bounds& a, const Bounds& b) {
+  return a + -b;
+}
+
+inline Bounds operator*(const Bounds& a, const Bounds& b) {
+  const Continuity continuity = worse(a, b);
+  return continuity == Continuity::undefined ? nowhere() : product(a, b, continuity);
+}
+
+inline Bounds square(const Bounds& a) {
+  if (a.is_undefined()) return a;
+  const double most = std::max(a.minus_lower, a.upper);
+  const double least = least_magnitude(a);
+  return {-least * least, most * most, a.continuity};
+}
 
 }  // namespace backlight

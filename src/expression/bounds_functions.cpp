@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "bounds.h"
-#include "bounds_parts.h"
 #include "rounding.h"
 
 namespace backlight {

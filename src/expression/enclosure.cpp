@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bounds.h"
-#include "bounds_parts.h"
 #include "rounding.h"
 
 namespace backlight {
@@ -20,15 +19,21 @@ BoundsSlope apply<BoundsSlope>(Operation operation, const BoundsSlope& a, const 
 
 namespace {
 
-constexpr std::size_t on_stack = 64;
+/// Room on the stack, by size: a number here is not free to make.
+constexpr std::size_t few = 8;
+constexpr std::size_t many = 64;
+
+template <class N, std::size_t count>
+N run_on_stack(const Tape& tape, std::span<const N> variables) {
+  std::array<N, count> registers;
+  return run<N>(tape, variables, registers);
+}
 
 /// Not inlined: its arithmetic must not move past the change of rounding mode in its callers.
 template <class N>
 [[gnu::noinline]] N run_rounded(const Tape& tape, std::span<const N> variables) {
-  if (tape.registers <= on_stack) {
-    std::array<N, on_stack> registers;
-    return run<N>(tape, variables, registers);
-  }
+  if (tape.registers <= few) return run_on_stack<N, few>(tape, variables);
+  if (tape.registers <= many) return run_on_stack<N, many>(tape, variables);
   std::vector<N> registers(tape.registers);
   return run<N>(tape, variables, registers);
 }
@@ -36,7 +41,6 @@ template <class N>
 /// Calls `use` with `count` numbers made by `make`.
 template <class N, class Make>
 [[gnu::noinline]] N run_with(const Tape& tape, std::size_t count, const Make& make) {
-  constexpr std::size_t few = 16;
   if (count <= few) {
     std::array<N, few> variables;
     for (std::size_t i = 0; i < count; ++i) variables[i] = make(i);

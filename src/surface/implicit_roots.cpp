@@ -57,7 +57,17 @@ RootWalk::RootWalk(const ImplicitFormula& f, const FormulaLine& line, double fro
   sign_at_start_ = at_a_.sign;
 }
 
+/// The middle of a cell that is divided is the end of the next one: it is not looked at twice.
 RootWalk::PointValue RootWalk::at(double s) {
+  for (const auto& [where, value] : recent_) {
+    if (where == s) return value;
+  }
+  next_recent_ ^= 1U;
+  recent_[next_recent_] = {s, look_at(s)};
+  return recent_[next_recent_].second;
+}
+
+RootWalk::PointValue RootWalk::look_at(double s) {
   ++work_.points;
   const Interval value = enclose(f_.expression().tape(), variables_of(line_), s);
   PointValue result;
@@ -197,7 +207,7 @@ RootWalk::Verdict RootWalk::try_cell(double to, Root& root) {
 /// on roots by chance; these four do not.
 bool RootWalk::hidden_by_rounding(double to) {
   const double length = to - a_;
-  return hidden_at(a_ + 0.5 * length) && hidden_at(to) && hidden_at(a_ + uneven * length) &&
+  return hidden_at(to) && hidden_at(a_ + 0.5 * length) && hidden_at(a_ + uneven * length) &&
          hidden_at(a_ + 0.8090169943749475 * length);
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "backlight/surface/implicit.h"
@@ -78,6 +79,7 @@ class RootWalk {
   };
 
   PointValue at(double s);
+  PointValue look_at(double s);
   [[nodiscard]] bool hidden_at(double s) { return at(s).hidden; }
   /// Moves s outwards (side = ±1) until the sign of f there is certain, if it soon is.
   double settle(double s, int side);
@@ -98,6 +100,9 @@ class RootWalk {
   double a_;            // everything before is done
   double step_;         // of the next cell
   PointValue at_a_;
+  std::array<std::pair<double, PointValue>, 2> recent_{
+      {{std::numeric_limits<double>::quiet_NaN(), {}}, {std::numeric_limits<double>::quiet_NaN(), {}}}};
+  std::size_t next_recent_ = 0;
   int sign_at_start_ = 0;
   // An unresolved root that is being collected. Close behind its last cell, rounding may hide f again: only a
   // gap of its own length ends it.
