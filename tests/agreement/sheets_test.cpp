@@ -227,6 +227,18 @@ stars = { count = 500, seed = 4 }
   expect_the_law(scene_of(all), three_colours);
 }
 
+// Solids and formulas take one ray at a time, after the cones.
+TEST(Sheets, AreTheLawForManySurfacesOfAFrame) {
+  std::string more;
+  for (int i = 0; i < 80; ++i) {
+    more += "[[object]]\nshape = \"box\"\nsize = [0.3, 0.2, 0.4]\nrotate = [" + std::to_string(7 * i) +
+            ", 20, 0]\nposition = [" + std::to_string(i % 10 * 0.6 - 3) + ", " +
+            std::to_string(i / 10 * 0.4 - 1) + ", 1]\nbeta = [0.3, 0.2, 0.5]\n";
+  }
+  expect_the_law(scene_of({.spheres = 20, .gamma = 2.0, .width = 60, .height = 40, .more = more}),
+                 three_colours);
+}
+
 TEST(LanePower, IsTheSameForAnyWidth) {
   for (int i = 1; i < 2000; ++i) {
     const double base = i / 2000.0, exponent = 0.37 * i;

@@ -54,7 +54,7 @@ class SheetTracer {
   void trace(std::span<const TilePixel> pixels, std::int64_t image_number, int sample, int eye, bool records,
              SheetScratch& sheets, Scratch& scratch, TileLight& light) const;
 
-  /// How shadows are found, for the statistics.
+  /// The instruction set in use, by name.
   [[nodiscard]] const char* instructions() const;
 
  private:
