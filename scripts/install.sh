@@ -16,7 +16,7 @@ set -euo pipefail
 
 declare -A packages=(
   [build]="g++ cmake ninja-build pkgconf libopenexr-dev libopenimageio-dev libglm-dev libtomlplusplus-dev libcli11-dev"
-  [test]="libgtest-dev nlohmann-json3-dev openimageio-tools libmpfr-dev libgmp-dev"
+  [test]="libgtest-dev nlohmann-json3-dev chromium ffmpeg openimageio-tools libmpfr-dev libgmp-dev python3"
   [ci]="clang-14 clang-format-14"
   [bench]="libbenchmark-dev"
   [charts]="gnuplot-nox python3"

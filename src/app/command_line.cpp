@@ -383,6 +383,48 @@ Parser compare_parser() {
   return parser;
 }
 
+void add_display_flags(CLI::App& app, ViewOptions& options) {
+  const char* group = "Display";
+  app.add_option_function<std::string>(
+         "--exposure",
+         [&options](const std::string& text) {
+           if (text == "auto") {
+             options.automatic_exposure = true;
+             return;
+           }
+           const auto stops = parse_number(text);
+           if (!stops.ok()) throw CLI::ValidationError("--exposure", stops.error() + " or auto");
+           options.exposure_stops = stops.value();
+         },
+         "brighten by a factor of 2 a stop, negative darkens; auto shows the log-average luminance as middle "
+         "grey")
+      ->type_name("STOPS")
+      ->group(group);
+  add_value(app, "--tone", "CURVE",
+            "what becomes of light beyond white. auto (the default): none if next to nothing is, else drago; "
+            "none: cut; drago: logarithm, for ranges of many powers of ten, exposed by itself; reinhard; log",
+            choice<std::optional<ToneCurve>>({{"auto", std::nullopt},
+                                              {"none", ToneCurve::none},
+                                              {"drago", ToneCurve::drago},
+                                              {"reinhard", ToneCurve::reinhard},
+                                              {"log", ToneCurve::logarithmic}}),
+            [&options](std::optional<ToneCurve> curve) { options.tone = curve; })
+      ->group(group);
+  add_value(app, "--white", "L",
+            "luminance that the curve shows as white, after exposure; default 1000, for drago the greatest",
+            parse_number, [&options](double white) { options.white = white; })
+      ->group(group);
+  add_value(app, "--eye", "EYE", "left (the default) or right, of a stereo pair",
+            choice<std::size_t>({{"left", 0}, {"right", 1}}),
+            [&options](std::size_t view) { options.view = view; })
+      ->group(group);
+  add_flag(
+      app, "--why", options.why,
+      "paint black pixels in the colour of why they are: missed blue, shadowed orange, shifted out of the "
+      "visible pink, too faint green; and count them. For images rendered with --aov light")
+      ->group(group);
+}
+
 Parser view_parser() {
   struct State {
     ViewOptions options;
@@ -390,41 +432,37 @@ Parser view_parser() {
     bool quiet = false;
   };
   const auto state = std::make_shared<State>();
-  Parser parser{
-      make_app("view",
-               "Make a PNG to look at: exposure, tone curve, sRGB. Several images make a contact sheet.",
-               "view IMAGE.exr... [options]"),
-      {}};
+  Parser parser{make_app("view",
+                         "Make a PNG to look at: exposure, tone curve, sRGB. Several images make a contact "
+                         "sheet, all shown in the same way.",
+                         "view IMAGE.exr... [options]"),
+                {}};
   CLI::App& app = *parser.app;
   ViewOptions& options = state->options;
   app.add_option("IMAGE.exr", state->files);
   add_value(app, "-o,--output", "FILE.png",
-            "file to write; default: the image's name with .png. A contact sheet needs a name", parse_text,
-            [&options](std::string file) { options.output = file; });
-  add_value(app, "--exposure", "STOPS", "brighten by a factor of 2 a stop; negative darkens", parse_number,
-            [&options](double stops) { options.transform.exposure_stops = stops; });
-  add_value(
-      app, "--tone", "CURVE",
-      "none (cut at white, the default), reinhard, or log: bring what is beyond white into the picture",
-      choice<ToneCurve>(
-          {{"none", ToneCurve::none}, {"reinhard", ToneCurve::reinhard}, {"log", ToneCurve::logarithmic}}),
-      [&options](ToneCurve curve) { options.transform.tone = curve; });
-  add_value(app, "--white", "L", "luminance that the tone curve shows as white; default 1000", parse_number,
-            [&options](double white) { options.transform.white = white; });
-  add_value(app, "--eye", "EYE", "left (the default) or right, of a stereo pair",
-            choice<std::size_t>({{"left", 0}, {"right", 1}}),
-            [&options](std::size_t view) { options.view = view; });
+            "file to write; default: the image's name with .png. A contact sheet needs a name. A folder, a "
+            "name that ends in /, gets a PNG for each image",
+            parse_text, [&options](std::string file) { options.output = file; })
+      ->group("Output");
+  add_flag(app, "--sheet", options.sheet, "make a contact sheet; so do several images without it")
+      ->group("Output");
   add_value(app, "--columns", "N", "images in a row of a contact sheet", whole(1, 1000),
-            [&options](std::int64_t columns) { options.columns = static_cast<int>(columns); });
+            [&options](std::int64_t columns) { options.columns = static_cast<int>(columns); })
+      ->group("Output");
+  add_display_flags(app, options);
   add_verbosity(app, state->quiet, nullptr);
   parser.finish = [state]() -> Command {
     ViewOptions finished = state->options;
-    if (finished.transform.white <= 0.0)
+    if (finished.white && *finished.white <= 0.0)
       throw CLI::ValidationError("--white", "expected a number greater than 0");
     finished.files = image_files(state->files);
-    if (finished.files.size() > 1 && finished.output.empty()) {
+    if ((finished.sheet || finished.files.size() > 1) && finished.output.empty()) {
       throw CLI::ValidationError("", "several images make one contact sheet: name it with -o");
     }
+    const bool folder = finished.output.filename().empty() || std::filesystem::is_directory(finished.output);
+    if (finished.sheet && folder)
+      throw CLI::ValidationError("--sheet", "a contact sheet is one file, not a folder");
     if (state->quiet) finished.verbosity = Verbosity::quiet;
     return finished;
   };

@@ -69,10 +69,15 @@ struct CompareOptions {
 
 struct ViewOptions {
   std::vector<std::filesystem::path> files;  ///< several make a contact sheet
-  std::filesystem::path output;              ///< empty: the file's name with .png
-  DisplayTransform transform;
-  std::size_t view = 0;  ///< 0: left, or the only one; 1: right
-  int columns = 0;       ///< of a contact sheet; 0: as square as it can be
+  std::filesystem::path output;              ///< empty: the file's name with .png; a folder: one PNG each
+  std::optional<ToneCurve> tone;             ///< none: as automatic_transform() chooses
+  std::optional<double> exposure_stops;      ///< beside what is chosen automatically
+  bool automatic_exposure = false;           ///< by the log-average luminance
+  std::optional<double> white;  ///< none: DisplayTransform's, or the greatest luminance for drago
+  std::size_t view = 0;         ///< 0: left, or the only one; 1: right
+  int columns = 0;              ///< of a contact sheet; 0: as square as it can be
+  bool sheet = false;           ///< a contact sheet was asked for by name
+  bool why = false;             ///< black pixels in the colours of why they are
   Verbosity verbosity = Verbosity::normal;
 };
 

@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <string>
 
 #include "backlight/film/display.h"
+#include "backlight/film/exposure.h"
 #include "backlight/film/exr.h"
+#include "backlight/film/why_black.h"
 #include "commands.h"
 #include "exit_codes.h"
 #include "messages.h"
@@ -43,9 +47,17 @@ PixelBytes contact_sheet(const std::vector<PixelBytes>& pictures, int columns) {
   return sheet;
 }
 
-fs::path output_path(const ViewOptions& options) {
-  if (!options.output.empty()) return options.output;
-  return fs::path(options.files.front()).replace_extension(".png");
+// Each image in a PNG of its own, in a folder; otherwise all of them in one PNG.
+bool goes_to_folder(const ViewOptions& options) {
+  std::error_code error;
+  return !options.output.empty() &&
+         (options.output.filename().empty() || fs::is_directory(options.output, error));
+}
+
+fs::path output_path(const ViewOptions& options, const fs::path& file) {
+  const fs::path name = fs::path(file).replace_extension(".png");
+  if (options.output.empty()) return name;
+  return goes_to_folder(options) ? options.output / name.filename() : options.output;
 }
 
 void print_report(const fs::path& file, const DisplayReport& report) {
@@ -58,37 +70,122 @@ void print_report(const fs::path& file, const DisplayReport& report) {
   tell(report.not_a_number, "not a number, shown magenta");
 }
 
+std::string flags_of(const DisplayTransform& transform) {
+  constexpr const char* names[] = {"none", "reinhard", "log", "drago"};
+  std::ostringstream text;
+  text << "--tone " << names[static_cast<std::size_t>(transform.tone)] << " --exposure "
+       << std::setprecision(6) << transform.exposure_stops;
+  if (transform.tone != ToneCurve::none) text << " --white " << transform.white;
+  return text.str();
+}
+
+// One transform for all the images, so that they can be compared, and a film does not flicker.
+Result<DisplayTransform> transform_of(const ViewOptions& options) {
+  const bool expose_drago = options.tone == ToneCurve::drago && !options.exposure_stops;
+  const bool automatic = !options.tone || options.automatic_exposure || expose_drago ||
+                         (options.tone == ToneCurve::drago && !options.white);
+  LuminanceCounts counts;
+  for (const fs::path& file : automatic ? options.files : std::vector<fs::path>{}) {
+    const auto picture = read_exr(file);
+    if (!picture.ok()) return picture.failure();
+    if (const auto added = counts.add(picture.value().image, options.view); !added.ok()) {
+      return Failure{file.string() + ": " + added.error()};
+    }
+  }
+  DisplayTransform transform;
+  if (!options.tone) {
+    transform = automatic_transform(counts);
+    if (options.automatic_exposure && transform.tone == ToneCurve::none) {
+      transform.exposure_stops = automatic_exposure(counts);
+    }
+    transform.exposure_stops += options.exposure_stops.value_or(0.0);
+  } else {
+    transform.tone = *options.tone;
+    transform.exposure_stops =
+        options.automatic_exposure || expose_drago
+            ? automatic_exposure(counts, transform.tone == ToneCurve::drago ? 1.0 : 0.18)
+            : options.exposure_stops.value_or(0.0);
+    const double greatest = counts.greatest() * std::exp2(transform.exposure_stops);
+    if (transform.tone == ToneCurve::drago && greatest > 0.0) transform.white = greatest;
+  }
+  transform.white = options.white.value_or(transform.white);
+  const bool chosen = automatic && (transform.tone != ToneCurve::none || transform.exposure_stops != 0.0);
+  if (chosen && options.verbosity != Verbosity::quiet) {
+    std::cerr << "shown with " << flags_of(transform) << '\n';
+  }
+  return transform;
+}
+
+// A strip of the reasons' colours below the picture, in their order, and a line for each on stdout.
+void add_legend(PixelBytes& pixels, const fs::path& file, const BlackCounts& counts) {
+  const auto width = static_cast<std::size_t>(pixels.width);
+  const int strip = std::max(4, pixels.height / 32);
+  const std::size_t total = width * static_cast<std::size_t>(pixels.height);
+  for (int y = 0; y < strip; ++y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const auto& colour = black_reasons()[x * why_black_count / width].colour;
+      pixels.samples.insert(pixels.samples.end(), colour.begin(), colour.end());
+    }
+  }
+  pixels.height += strip;
+  std::cout << file.string() << ": black because\n";
+  for (std::size_t i = 0; i < why_black_count; ++i) {
+    std::cout << "  " << std::left << std::setw(28) << black_reasons()[i].name << std::setw(8)
+              << black_reasons()[i].colour_name << std::right << std::setw(9) << counts[i] << " pixels  "
+              << std::fixed << std::setprecision(1) << 100.0 * double(counts[i]) / double(total) << " %\n";
+  }
+}
+
+Result<PixelBytes> shown(const fs::path& file, const ViewOptions& options,
+                         const DisplayTransform& transform) {
+  const auto picture = read_exr(file);
+  if (!picture.ok()) return picture.failure();
+  auto displayed = display_image(picture.value().image, transform, options.view);
+  if (!displayed.ok()) return Failure{file.string() + ": " + displayed.error()};
+  if (options.verbosity != Verbosity::quiet && transform.tone == ToneCurve::none) {
+    print_report(file, displayed.value().report);
+  }
+  PixelBytes pixels = std::move(displayed.value().pixels);
+  if (options.why) {
+    const auto counts = mark_black(pixels, picture.value().image, transform, options.view);
+    if (!counts.ok()) return Failure{file.string() + ": " + counts.error()};
+    add_legend(pixels, file, counts.value());
+  }
+  return pixels;
+}
+
+int file_trouble(const std::string& message) {
+  print_error(message);
+  return exit_file_trouble;
+}
+
 }  // namespace
 
 int run(const ViewOptions& options) {
-  const fs::path output = output_path(options);
+  const bool each = goes_to_folder(options);
+  const fs::path output = output_path(options, options.files.front());
   if (output.extension() != ".png") {
-    print_error("--output: a view is written as PNG: '" + output.string() + "' must end in .png");
+    print_error("--output: a view is written as PNG: '" + output.string() +
+                "' must end in .png, or in / for a folder");
     return exit_usage;
   }
+  const auto transform = transform_of(options);
+  if (!transform.ok()) return file_trouble(transform.error());
   std::vector<PixelBytes> pictures;
   for (const fs::path& file : options.files) {
-    const auto picture = read_exr(file);
-    if (!picture.ok()) {
-      print_error(picture.error());
-      return exit_file_trouble;
+    auto pixels = shown(file, options, transform.value());
+    if (!pixels.ok()) return file_trouble(pixels.error());
+    if (!each) {
+      pictures.push_back(std::move(pixels).value());
+    } else if (const auto written = write_png(output_path(options, file), pixels.value()); !written.ok()) {
+      return file_trouble(written.error());
     }
-    auto displayed = display_image(picture.value().image, options.transform, options.view);
-    if (!displayed.ok()) {
-      print_error(file.string() + ": " + displayed.error());
-      return exit_file_trouble;
-    }
-    if (options.verbosity != Verbosity::quiet) print_report(file, displayed.value().report);
-    pictures.push_back(std::move(displayed.value().pixels));
   }
+  if (each) return exit_success;
   const PixelBytes sheet =
       pictures.size() == 1 ? std::move(pictures.front()) : contact_sheet(pictures, options.columns);
   const auto written = write_png(output, sheet);
-  if (!written.ok()) {
-    print_error(written.error());
-    return exit_file_trouble;
-  }
-  return exit_success;
+  return written.ok() ? static_cast<int>(exit_success) : file_trouble(written.error());
 }
 
 }  // namespace backlight

@@ -1,0 +1,123 @@
+// backlight view: what it chooses by itself, folders, and why pixels are black.
+#include <sstream>
+#include <stdexcept>
+
+#include "backlight/film/exr.h"
+#include "backlight/film/png.h"
+#include "program.h"
+
+namespace backlight::test {
+namespace {
+
+class View : public ProgramTest {
+ protected:
+  // Greys of these film values, a row of one pixel each; with `light` their data channels.
+  void picture(const std::string& name, const std::vector<float>& values,
+               const std::vector<std::pair<float, float>>& light = {}) const {
+    ImageLayout layout;
+    layout.display = layout.data = {0, 0, static_cast<int>(values.size()), 1};
+    std::vector<std::vector<float>> planes;
+    for (const char* channel : {"R", "G", "B"}) {
+      layout.channels.push_back({channel, ChannelPrecision::single});
+      planes.push_back(values);
+    }
+    if (!light.empty()) {
+      layout.channels.push_back({"light.N", ChannelPrecision::single});
+      layout.channels.push_back({"light.Y", ChannelPrecision::single});
+      planes.resize(5);
+      for (const auto& [lamps, unshifted] : light) {
+        planes[3].push_back(lamps);
+        planes[4].push_back(unshifted);
+      }
+    }
+    const auto written = write_exr(folder / "work" / name, Image(layout, planes), {});
+    if (!written.ok()) ADD_FAILURE() << written.error();
+  }
+
+  [[nodiscard]] PixelBytes shown(const std::string& name) const {
+    auto pixels = read_rgb_bytes(folder / "work" / name);
+    if (!pixels.ok()) throw std::runtime_error(pixels.error());
+    return std::move(pixels).value();
+  }
+
+  void expect_success(const std::vector<std::string>& arguments) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+};
+
+TEST_F(View, ShowsTheFilmAsItIsWhereNothingIsBeyondWhite) {
+  picture("a.exr", {0.0F, 0.18F, 1.0F});
+  expect_success({"view", "a.exr"});
+  const PixelBytes a = shown("a.png");
+  EXPECT_EQ(a.samples[3], 118);  // the sRGB signal of 0.18
+  EXPECT_EQ(a.samples[6], 255);
+}
+
+TEST_F(View, KeepsEightDecadesApart) {
+  std::vector<float> decades;
+  for (float value = 1e-4F; value < 2e4F; value *= 10.0F) decades.push_back(value);
+  picture("a.exr", decades);
+  const Outcome outcome = run({"view", "a.exr"});
+  EXPECT_NE(outcome.err.find("shown with --tone drago --exposure "), std::string::npos) << outcome.err;
+  const PixelBytes a = shown("a.png");
+  EXPECT_EQ(a.samples[3 * 8], 255);
+  for (std::size_t i = 2; i < decades.size(); ++i) {  // from a millionth of the greatest
+    EXPECT_GT(a.samples[3 * i], a.samples[3 * i - 3] + 3) << decades[i];
+  }
+  // What it says it did can be asked for.
+  const std::string flags = outcome.err.substr(outcome.err.find("--tone"));
+  std::istringstream words(flags);
+  std::vector<std::string> arguments{"view", "a.exr", "-o", "again.png"};
+  for (std::string word; words >> word;) arguments.push_back(word);
+  expect_success(arguments);
+  EXPECT_EQ(shown("again.png").samples, a.samples);
+}
+
+TEST_F(View, AutomaticExposureShowsTheLogAverageAsMiddleGrey) {
+  picture("a.exr", {0.001F, 0.1F});  // log-average 0.01
+  expect_success({"view", "a.exr", "--exposure", "auto", "--tone", "none", "-o", "grey.png"});
+  picture("b.exr", {0.018F, 1.8F});
+  expect_success({"view", "b.exr", "--tone", "none", "-o", "same.png"});
+  EXPECT_EQ(shown("grey.png").samples, shown("same.png").samples);
+}
+
+TEST_F(View, ShowsSeveralImagesInOneWay) {
+  picture("a.exr", {0.5F, 0.5F});
+  picture("b.exr", {500.0F, 0.5F});
+  expect_success({"view", "a.exr", "b.exr", "-o", "png/"});
+  EXPECT_EQ(shown("png/a.png").samples[0], shown("png/b.png").samples[3]);
+  EXPECT_EQ(shown("png/b.png").samples[0], 255);
+  expect_success({"view", "--sheet", "a.exr", "b.exr", "--columns", "1", "-o", "sheet.png"});
+  EXPECT_EQ(shown("sheet.png").height, 2);
+  EXPECT_EQ(run({"view", "--sheet", "a.exr", "-o", "png/"}).code, 2);
+  EXPECT_EQ(run({"view", "--sheet", "a.exr"}).code, 2);
+}
+
+TEST_F(View, TellsWhyPixelsAreBlack) {
+  const std::vector<std::pair<float, float>> light{{-1, 0},    {0, 0},     {2, 0.3F},
+                                                   {1, 1e-5F}, {-1, 0.4F}, {1, 0.5F}};
+  picture("a.exr", {0, 0, 0, 1e-6F, 0, 0.5F}, light);
+  const Outcome outcome = run({"view", "a.exr", "--why"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const PixelBytes a = shown("a.png");
+  EXPECT_GT(a.height, 1);  // the legend
+  const std::vector<std::vector<int>> expected{{0, 114, 178}, {230, 159, 0},   {204, 121, 167},
+                                               {0, 158, 115}, {204, 121, 167}, {188, 188, 188}};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(a.samples[3 * i + c], expected[i][c]) << i;
+  }
+  for (const char* line : {"missed                      blue            1 pixels",
+                           "shadowed                    orange          1 pixels",
+                           "shifted out of the visible  pink            2 pixels",
+                           "too faint                   green           1 pixels"}) {
+    EXPECT_NE(outcome.out.find(line), std::string::npos) << outcome.out;
+  }
+  picture("b.exr", {0.0F});
+  const Outcome without = run({"view", "b.exr", "--why"});
+  EXPECT_EQ(without.code, 4);
+  EXPECT_NE(without.err.find("render it with --aov light"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace backlight::test

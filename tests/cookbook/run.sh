@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Runs the recipes of docs/cookbook.md, in their order, exactly as they stand there, and looks at what they made.
+#
+#   tests/cookbook/run.sh PROGRAM FOLDER        FOLDER is emptied first
+set -euo pipefail
+top=$(cd "$(dirname "$0")/../.." && pwd)
+program=$(realpath "$1")
+rm -rf "$2" && mkdir -p "$2/scripts" "$2/build/release/bin" && cd "$2"
+ln -s "$top/scenes" scenes
+cp "$top/scripts/video.sh" scripts/
+ln -s "$program" build/release/bin/backlight
+export PATH="$PWD/build/release/bin:$PATH" BACKLIGHT_MODULE_PATH=${BACKLIGHT_MODULE_PATH:-$(dirname "$program")/../lib/backlight}
+
+# recipe-1.sh, recipe-2.sh...: the blocks that begin with ```sh
+awk '/^```sh$/ { n++; inside = 1; next } /^```$/ { inside = 0 } inside { print > ("recipe-" n ".sh") }' "$top/docs/cookbook.md"
+recipes=(recipe-*.sh)
+((${#recipes[@]} >= 6)) || { echo "found only ${#recipes[@]} recipes" >&2 && exit 1; }
+for ((n = 1; n <= ${#recipes[@]}; ++n)); do
+  echo "--- recipe $n"
+  bash -euo pipefail "recipe-$n.sh" >"recipe-$n.log" 2>&1 || { cat "recipe-$n.log" && echo "recipe $n failed" >&2 && exit 1; }
+  cat "recipe-$n.log"
+done
+
+size() { ffprobe -v error -select_streams v -count_packets -show_entries stream=width,height,nb_read_packets -of csv=p=0 "$1"; }
+expect() { [[ $2 == "$3" ]] || { echo "$1: expected $2, found $3" >&2 && exit 1; }; }
+expect out/speeds.png 360,264,1 "$(size out/speeds.png)"
+expect out/lamp.mp4 180,132,12 "$(size out/lamp.mp4)"
+expect out/panorama.png 256,256,1 "$(size out/panorama.png)"
+cmp -s out/left.png out/right.png && { echo "both eyes see the same" >&2 && exit 1; }
+grep -q "2 images, 2 equal" recipe-4.log || { echo "the suite is not equal" >&2 && exit 1; }
+[[ -s out/report.html ]] || { echo "no report" >&2 && exit 1; }
+awk '/shifted/ { exit !($6 > 500) }' recipe-6.log || { echo "no pixel was shifted out of the visible" >&2 && exit 1; }
+
+# A hole in the sequence is refused, and named; so is a frame there twice.
+rm out/lamp/lamp.0005.exr out/lamp/lamp.0007.exr
+status=0 && message=$(scripts/video.sh out/lamp/*.exr -o out/hole.mp4 2>&1) || status=$?
+expect "status with a hole" 4 "$status"
+[[ $message == *"missing between 1 and 12: frame 5 7"* && ! -e out/hole.mp4 ]] || { echo "a hole: $message" >&2 && exit 1; }
+
+# What the video shows: a grey of linear 0.18 is the sRGB signal 118.
+cat >grey.toml <<'TOML'
+[film]
+resolution = [31, 17]
+[camera]
+[background]
+color = [0.18, 0.18, 0.18]
+[animation]
+fps = 1
+frames = [1, 3]
+TOML
+backlight grey.toml -q -o grey/grey.####.exr
+scripts/video.sh grey/*.exr -o grey.mp4 --fps 5 --tone none
+expect grey.mp4 32,18,3 "$(size grey.mp4)"
+ffmpeg -v error -y -i grey.mp4 -frames:v 1 -pix_fmt rgb24 -f rawvideo grey.rgb
+for pixel in 0 40 575; do
+  value=$(od -An -tu1 -j $((3 * pixel)) -N 1 grey.rgb | tr -d ' ')
+  ((value >= 116 && value <= 120)) || { echo "pixel $pixel of the grey video is $value, not 118" >&2 && exit 1; }
+done
+expect "transfer curve" iec61966-2-1 "$(ffprobe -v error -select_streams v -show_entries stream=color_transfer -of csv=p=0 grey.mp4)"
+echo "All recipes work."
