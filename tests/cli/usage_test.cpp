@@ -170,7 +170,9 @@ TEST_F(Usage, ViewNeverWritesOverAnImage) {
   write("a.exr", "precious");
   const Outcome outcome = run({"view", "b.exr", "-o", "a.exr"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.err, "backlight: error: --output: a view is written as PNG: 'a.exr' must end in .png\n");
+  EXPECT_EQ(outcome.err,
+            "backlight: error: --output: a view is written as PNG: 'a.exr' must end in .png, or in / for a "
+            "folder\n");
   EXPECT_EQ(read("a.exr"), "precious");
 }
 
