@@ -8,7 +8,7 @@
 #   ci       the second compiler and the formatter of .ci/run
 #   bench    kernel benchmarks
 #   charts   what scripts/gallery.sh and the charts of docs/ need besides
-#   farm     a Slurm for this machine alone, and GNU parallel: what tests/farm/run.sh needs
+#   farm     a Slurm for this machine alone, GNU parallel and ffmpeg: what tests/farm/run.sh needs
 #   oracle   mpmath, to recompute the reference values that the tests hold as literals
 #
 # Made for Debian 12. With everything present it needs neither root nor network.
@@ -20,7 +20,7 @@ declare -A packages=(
   [ci]="clang-14 clang-format-14"
   [bench]="libbenchmark-dev"
   [charts]="gnuplot-nox python3"
-  [farm]="slurmctld slurmd slurm-client munge parallel"
+  [farm]="slurmctld slurmd slurm-client munge parallel ffmpeg"
   [oracle]="python3 python3-mpmath"
 )
 

@@ -129,7 +129,8 @@ export FARM_PORT
 [[ $(sinfo -h -N -t idle -o %N | sort -u | xargs) == "n1 n2" ]] || fail "no two idle nodes"
 
 begin "an array job, one node lost in the middle"
-read -r array gather < <("$submit" --chunk 4 --mem-per-cpu 300M --time 10 "$scene" -o "$work/array/flight.####.exr" --claim-expires 3)
+read -r array gather < <("$submit" --chunk 4 --mem-per-cpu 300M --time 10 --video "$work/array/flight.mp4" --fps 8 \
+  "$scene" -o "$work/array/flight.####.exr" --claim-expires 3)
 job=$(job_folder "$work/array")
 until_true 30 "images of the array job" has_images "$work/array" 1
 until_true 20 "a renderer on node n1" runs_on_n1
@@ -154,6 +155,8 @@ orphan=''
 [[ $(state_of "$gather") == " 1 JobState=COMPLETED " ]] || fail "gather job: $(state_of "$gather")"
 grep -q '^all 16 images are complete' "$job/logs/gather.log" || fail "the gather job did not look at all images"
 expect_same "$work/array"
+pictures=$(ffprobe -v error -count_packets -select_streams v -show_entries stream=nb_read_packets -of csv=p=0 "$work/array/flight.mp4")
+[[ $pictures == 16 ]] || fail "the video has $pictures pictures"
 # In any of the tasks, and however often it was started, an image is rendered once; the frozen one twice.
 rendered=$(cat "$job"/logs/task-*.json | wc -l)
 ((rendered <= 17)) || fail "$rendered images were rendered for 16"
@@ -195,10 +198,11 @@ begin "a task that fails"
 mkdir "$work/fails"
 cp "$scene" "$work/fails/"
 sed -i 's/^velocity = .*/velocity = ["0.5 + 0.5*t", 0, 0]/' "$work/fails/moving.toml"
-read -r array gather < <("$submit" --chunk 8 "$work/fails/moving.toml" -f 1-16 -s 1 -r 16x9 -o "$work/fails/flight.####.exr")
+read -r array gather < <("$submit" --chunk 8 --video "$work/fails/flight.mp4" "$work/fails/moving.toml" -f 1-16 -s 1 -r 16x9 -o "$work/fails/flight.####.exr")
 until_true 60 "the array job" queue_is_empty "$array"
 until_true 30 "the end of the gather job" queue_is_empty "$gather"
 [[ $(state_of "$array") == *FAILED* ]] || fail "the task did not fail: $(state_of "$array")"
+[[ ! -e $work/fails/flight.mp4 ]] || fail "a video was made of images that are not there"
 [[ $(state_of "$gather") == *CANCELLED* ]] || fail "the gather job was not cancelled: $(state_of "$gather")"
 
 begin "a shell loop"
