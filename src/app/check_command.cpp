@@ -36,6 +36,7 @@ int run(const CheckOptions& options) {
     std::cerr << "in frame " << frame << '\n';
     return session.exit_code();
   }
+  if (!session.check_camera_path(options.scene.request)) return session.exit_code();
   if (options.verbosity == Verbosity::quiet) return exit_success;
   std::cout << explain(session.description(), *scene);
   if (frames.size() > 1) {

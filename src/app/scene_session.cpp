@@ -28,4 +28,13 @@ std::optional<Scene> SceneSession::compile(const ImageRequest& request) {
   return scene;
 }
 
+bool SceneSession::check_camera_path(const ImageRequest& request) {
+  Diagnostics diagnostics;
+  backlight::check_camera_path(*description_, request, diagnostics);
+  if (!diagnostics.has_errors()) return true;
+  exit_code_ = exit_scene_wrong;
+  print(diagnostics);
+  return false;
+}
+
 }  // namespace backlight

@@ -21,6 +21,9 @@ class SceneSession {
   /// alone.
   std::optional<Scene> compile(const ImageRequest& request);
 
+  /// Whether the camera's path is below the speed of light between the images too; else the error is printed.
+  bool check_camera_path(const ImageRequest& request);
+
   /// The frame numbers of the scene's [animation], or {1}.
   [[nodiscard]] std::vector<int> frames() const { return animation_frames(*description_); }
   [[nodiscard]] const Description& description() const { return *description_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -168,17 +169,34 @@ std::string camera_name(const Description& description, const ImageRequest& requ
   return name != nullptr && name->node.text() != nullptr ? *name->node.text() : std::string();
 }
 
-// The variables of one image.
-ImageValues image_values(const Description& description, const ImageRequest& request,
-                         Diagnostics& diagnostics) {
-  ImageValues values{description, std::vector<double>(description.variables.size(), 0.0), diagnostics};
-  set_time(values, request, read_animation(description, diagnostics));
-  evaluate_parameters(values);
-  check_parameters(values);
-  return values;
+// Each variable with its derivative by t.
+std::vector<Dual> rates_of(const ImageValues& values, double frames_per_second) {
+  std::vector<Dual> rates(values.variables.size());
+  for (std::size_t i = 0; i < rates.size(); ++i) rates[i].value = values.variables[i];
+  rates[0].derivative = 1.0;
+  rates[1].derivative = frames_per_second;
+  const Entry* parameters = find(values.description.root, "params");
+  for (const std::size_t i : values.description.parameter_order) {
+    const Entry* entry = find(parameters->node, values.description.variables[i]);
+    const auto* expression = entry != nullptr ? std::get_if<Expression>(&entry->node.value) : nullptr;
+    if (expression != nullptr)
+      rates[i].derivative = expression->evaluate(std::span<const Dual>(rates)).derivative;
+  }
+  return rates;
 }
 
 }  // namespace
+
+ImageValues image_values(const Description& description, const ImageRequest& request,
+                         Diagnostics& diagnostics) {
+  ImageValues values{description, std::vector<double>(description.variables.size(), 0.0), diagnostics};
+  const Animation animation = read_animation(description, diagnostics);
+  set_time(values, request, animation);
+  evaluate_parameters(values);
+  check_parameters(values);
+  values.rates = rates_of(values, animation.written ? animation.fps : 0.0);
+  return values;
+}
 
 void compile_effects(Compilation& c) {
   const TableView table = TableView::top(c.values, "effects");

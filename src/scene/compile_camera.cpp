@@ -1,13 +1,14 @@
 #include <numbers>
 
+#include "camera_motion.h"
 #include "compile_parts.h"
 #include "words.h"
 
 namespace backlight {
 namespace {
 
-const Node* among(Compilation& c, const NodeArray& cameras) {
-  const std::string& wanted = c.request.camera;
+const Node* among(ImageValues& values, const ImageRequest& request, const NodeArray& cameras) {
+  const std::string& wanted = request.camera;
   std::vector<std::string> names;
   for (const Node& node : cameras) {
     const Entry* name = find(node, "name");
@@ -16,33 +17,9 @@ const Node* among(Compilation& c, const NodeArray& cameras) {
       return &node;
     }
   }
-  c.values.diagnostics.error({}, "there is no camera '" + wanted + "'",
-                             names.empty() ? std::string() : "the cameras are " + listed(names, "and"));
+  values.diagnostics.error({}, "there is no camera '" + wanted + "'",
+                           names.empty() ? std::string() : "the cameras are " + listed(names, "and"));
   return nullptr;
-}
-
-const Node* find_camera(Compilation& c) {
-  const Entry* entry = find(c.values.description.root, "camera");
-  if (entry == nullptr) {
-    SourceSpan whole_file;
-    whole_file.source = c.values.description.sources.front();
-    c.values.diagnostics.error(whole_file, "the scene has no [camera]");
-    return nullptr;
-  }
-  if (const NodeArray* cameras = entry->node.array()) {
-    if (!cameras->empty()) return among(c, *cameras);
-    c.values.error(entry->place, "the scene has no [camera]");
-    return nullptr;
-  }
-  if (entry->node.table() == nullptr) return nullptr;  // reported before
-  const Entry* name = find(entry->node, "name");
-  const bool other =
-      name == nullptr || name->node.text() == nullptr || *name->node.text() != c.request.camera;
-  if (!c.request.camera.empty() && other) {
-    c.values.diagnostics.error({}, "there is no camera '" + c.request.camera + "'",
-                               "the scene has one camera only");
-  }
-  return &entry->node;
 }
 
 // The exposure's event, and the camera's own time of it. `frame` is its rest frame, `x` where it rests there.
@@ -115,16 +92,41 @@ void read_lens(const TableView& table, const FilmSettings& film, Lens& lens) {
 
 }  // namespace
 
+const Node* find_camera(ImageValues& values, const ImageRequest& request) {
+  const Entry* entry = find(values.description.root, "camera");
+  if (entry == nullptr) {
+    SourceSpan whole_file;
+    whole_file.source = values.description.sources.front();
+    values.diagnostics.error(whole_file, "the scene has no [camera]");
+    return nullptr;
+  }
+  if (const NodeArray* cameras = entry->node.array()) {
+    if (!cameras->empty()) return among(values, request, *cameras);
+    values.error(entry->place, "the scene has no [camera]");
+    return nullptr;
+  }
+  if (entry->node.table() == nullptr) return nullptr;  // reported before
+  const Entry* name = find(entry->node, "name");
+  const bool other = name == nullptr || name->node.text() == nullptr || *name->node.text() != request.camera;
+  if (!request.camera.empty() && other) {
+    values.diagnostics.error({}, "there is no camera '" + request.camera + "'",
+                             "the scene has one camera only");
+  }
+  return &entry->node;
+}
+
 void compile_camera(Compilation& c) {
-  const Node* node = find_camera(c);
+  const Node* node = find_camera(c.values, c.request);
   if (node == nullptr) return;
   const TableView table(c.values, node, *find_table("camera"));
   const std::size_t errors = c.values.diagnostics.error_count();
   c.scene.camera.name = table.text("name");
   Vec3 position = table.vector("position");
   point_lens(table, position, c.values.diagnostics.error_count() == errors, c.scene.camera.lens);
-  const InertialFrame frame = rest_frame(c, table, position);
-  expose(table, frame, position, c.scene);
+  if (!fly(c, table) && !follow_path(c, table)) {
+    const InertialFrame frame = rest_frame(c, table, position);
+    expose(table, frame, position, c.scene);
+  }
   read_lens(table, c.scene.film, c.scene.camera.lens);
   if (table.has_valid("stereo")) {
     const Projection projection = c.scene.camera.lens.projection;

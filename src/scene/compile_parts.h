@@ -17,6 +17,13 @@ struct Compilation {
   Frames& frames;
 };
 
+/// The variables of one image, with their derivatives by t. What is wrong with them goes to `diagnostics`.
+ImageValues image_values(const Description& description, const ImageRequest& request,
+                         Diagnostics& diagnostics);
+
+/// The table of the camera that is asked for, or null, which has been reported.
+const Node* find_camera(ImageValues& values, const ImageRequest& request);
+
 void compile_film(Compilation& c);
 void compile_camera(Compilation& c);  ///< after the film, whose size the lens takes
 void compile_objects(Compilation& c);

@@ -84,10 +84,19 @@ KeyTable camera() {
       "carried by the "
       "pure boost. With `frame`, `position` and `time` are that frame's coordinates. With a velocity, its "
       "world line "
-      "passes `position` at world time 0, which is its own time 0.",
+      "passes `position` at world time 0, which is its own time 0.\n\n"
+      "Without a velocity, a `position` that depends on `t` is a path: the camera is where the formula says "
+      "at "
+      "`time` (of the world, or of its `frame`), and its velocity is the path's, dposition/dtime, by exact "
+      "differentiation. The film is then what one moving observer sees, with aberration, colour and "
+      "brightness "
+      "of its speed. Write `velocity = [0, 0, 0]` for a camera that is put somewhere else for each image and "
+      "is "
+      "at rest in all of them. With `rocket` it accelerates.",
       {text("name",
             "Needed to choose among several cameras with `--camera`; the first one is used otherwise."),
-       numbers("position", 3, std::vector<double>{0, 0, 0}, "length", "Where it is at its own time 0."),
+       numbers("position", 3, std::vector<double>{0, 0, 0}, "length",
+               "Where it is at its own time 0; or, as formulas of `t` without a velocity, its path."),
        numbers("look_at", 3, Nothing{}, "length",
                "Looks along `look_at - position`, read as a direction in the camera's frame."),
        numbers("direction", 3, std::vector<double>{0, 0, 1}, "",
@@ -96,7 +105,14 @@ KeyTable camera() {
                "The image's upward direction, as far as it is perpendicular to the looking direction; not "
                "parallel "
                "to that."),
-       number("time", std::string("t"), "s", "The camera's own (proper) time of the exposure."),
+       number(
+           "time", std::string("t"), "s",
+           "The camera's own (proper) time of the exposure, with a velocity or a `rocket`; else the time of "
+           "its frame."),
+       structured(
+           "rocket", {{ValueKind::table, 0, "camera.rocket"}},
+           "A flight at constant proper acceleration, which begins at its own time 0 at `position`, at "
+           "rest in its `frame` or with its velocity."),
        number("world_time", Nothing{}, "s", "The world's time of the exposure, instead of `time`."),
        choice("projection", std::string("perspective"),
               {"perspective", "equirectangular", "mercator", "fisheye"},
@@ -117,6 +133,19 @@ KeyTable camera() {
   return table;
 }
 
+KeyTable rocket() {
+  return {
+      "camera.rocket",
+      "[camera] rocket = { ... }",
+      "A flight at constant proper acceleration (hyperbolic motion): those aboard weigh the same all the "
+      "time. Before its own time 0 it decelerates in the same way.",
+      {number("acceleration", Required{}, "length/time²", "What an accelerometer aboard shows.", above(0)),
+       numbers("along", 3, Required{}, "",
+               "The direction of the thrust, in the axes of the frame in which the flight begins; of any "
+               "length but zero.")},
+      ""};
+}
+
 KeyTable stereo() {
   return {"camera.stereo",
           "[camera] stereo = { ... }",
@@ -128,7 +157,7 @@ KeyTable stereo() {
 }  // namespace
 
 std::vector<KeyTable> picture_tables() {
-  return {top(), parameters(), animation(), film(), camera(), stereo()};
+  return {top(), parameters(), animation(), film(), camera(), rocket(), stereo()};
 }
 
 }  // namespace backlight::key_builders

@@ -123,6 +123,33 @@ std::vector<double> TableView::numbers(std::string_view name) const {
   return numbers_of(node_of(name), key(name));
 }
 
+Dual TableView::moving(const Node* node, double value) const {
+  const auto* expression = node != nullptr ? std::get_if<Expression>(&node->value) : nullptr;
+  if (expression == nullptr || values_->rates.empty()) return {value, 0.0};
+  const Dual dual = expression->evaluate(std::span<const Dual>(values_->rates));
+  return {value, dual.derivative};
+}
+
+Dual TableView::moving_number(std::string_view name) const {
+  const Node* node = node_of(name);
+  const double value = number(name);
+  if (node != nullptr) return moving(node, value);
+  const auto* formula = std::get_if<std::string>(&key(name).value);
+  return {value, formula != nullptr && *formula == "t" ? 1.0 : 0.0};
+}
+
+std::array<Dual, 3> TableView::moving_vector(std::string_view name) const {
+  const Vec3 value = vector(name);
+  const Node* node = node_of(name);
+  const NodeArray* array = node != nullptr ? node->array() : nullptr;
+  const bool whole = array != nullptr && array->size() == 3;
+  std::array<Dual, 3> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result[i] = moving(whole ? &(*array)[i] : nullptr, value[static_cast<glm::length_t>(i)]);
+  }
+  return result;
+}
+
 Vec3 TableView::vector(std::string_view name) const {
   return to_vector(numbers(name));
 }

@@ -1,6 +1,7 @@
 // A description's tables, read with their expressions evaluated for one image.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@ struct ImageValues {
   const Description& description;
   std::vector<double> variables;  ///< t, frame, parameters
   Diagnostics& diagnostics;
+  std::vector<Dual> rates = {};  ///< the same with their derivatives by t; empty where nothing can move
 
   void error(const Place& place, std::string message, std::string hint = {}) {
     diagnostics.error(description.span(place), std::move(message), std::move(hint));
@@ -53,6 +55,11 @@ class TableView {
   /// A vector: zero if it has no default.
   [[nodiscard]] Vec3 vector(std::string_view key) const;
   [[nodiscard]] std::vector<double> numbers(std::string_view key) const;
+  /// The number, or the vector's components, with the derivatives by t. Exact: formulas are differentiated.
+  /// What was wrong with the value has been reported by number() or vector(), and is the default.
+  [[nodiscard]] Dual moving_number(std::string_view key) const;
+  [[nodiscard]] std::array<Dual, 3> moving_vector(std::string_view key) const;
+
   /// Element `index` of an array of three numbers each.
   [[nodiscard]] Vec3 vector_at(std::string_view key, std::size_t index) const;
   [[nodiscard]] bool boolean(std::string_view key) const;
@@ -74,6 +81,7 @@ class TableView {
   [[nodiscard]] const Key& key(std::string_view name) const;
   [[nodiscard]] std::optional<double> evaluated(const Node& node, const Key& key) const;
   [[nodiscard]] std::vector<double> numbers_of(const Node* node, const Key& key) const;
+  [[nodiscard]] Dual moving(const Node* node, double value) const;
   [[nodiscard]] std::vector<double> default_numbers(const Key& key) const;
 
   ImageValues* values_;

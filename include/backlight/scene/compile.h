@@ -44,6 +44,10 @@ struct ImageFacts {
 /// The facts as compile() would find them. Empty when something about them is wrong, which compile() reports.
 std::optional<ImageFacts> image_facts(const Description& description, const ImageRequest& request);
 
+/// Looks at the camera's path between the images of the animation too: adds an error that names the first
+/// instant at which it is as fast as light, if there is one. For a description that compiles.
+void check_camera_path(const Description& description, const ImageRequest& request, Diagnostics& diagnostics);
+
 /// The frame numbers of [animation], or {1}. Empty if the table is wrong, which compile() reports.
 std::vector<int> animation_frames(const Description& description);
 

@@ -1,0 +1,16 @@
+// Cameras that do not move uniformly: what is true of one at the instant of its exposure.
+#pragma once
+
+#include "compile_parts.h"
+
+namespace backlight {
+
+/// A camera without a velocity whose position depends on t: sets celerity, event and proper time of the
+/// scene's camera from its path (docs/physics.md, equation 18). False, with nothing done, if it does not
+/// move.
+bool follow_path(Compilation& c, const TableView& camera);
+
+/// A camera with a rocket (equations 19 to 21). False, with nothing done, if it has none.
+bool fly(Compilation& c, const TableView& camera);
+
+}  // namespace backlight
