@@ -33,12 +33,12 @@ class Film {
     std::ostringstream path;
     path.precision(17);
     path << "[\"" << velocity.x << "*t\", \"" << velocity.y << "*t\", \"" << velocity.z << "*t\"]";
-    constexpr double away = 1e7;
+    constexpr double away = 1e9;  // so far, and the ball so large, that the camera sees it from one place
     text_ = "[film]\nresolution = [3, 3]\naovs = [\"doppler\", \"objectId\"]\n[camera]\nposition = " +
             path.str() + "\ndirection = " + list(aim) + "\nup = [0.3, 1, 0.1]\nfov = 0.01\n" +
-            "[[light]]\ntype = \"point\"\nintensity = \"1e9*(1 + 0.9*sin(t))\"\nposition = " +
-            list((away - 2e4) * towards) +
-            "\n[[object]]\nshape = \"sphere\"\nradius = 1e4\nposition = " + list(away * towards) + '\n';
+            "[[light]]\ntype = \"point\"\nintensity = \"1e13*(1 + 0.9*sin(t))\"\nposition = " +
+            list((away - 2e6) * towards) +
+            "\n[[object]]\nshape = \"sphere\"\nradius = 1e6\nposition = " + list(away * towards) + '\n';
   }
 
   [[nodiscard]] double doppler() const { return doppler_; }
