@@ -161,7 +161,7 @@ void add_film_flags(CLI::App& app, ImageRequest& request, RenderOptions& options
   add_value(
       app, "--aov", "LIST",
       "data channels besides the colour, with commas between: Z, doppler, emissionTime, properTime, P, N, "
-      "objectId, light; or all, or none",
+      "objectId, unresolved, light; or all, or none",
       parse_aovs, [&request](std::vector<std::string> names) { request.aovs = std::move(names); })
       ->group(group);
 }

@@ -312,6 +312,12 @@ void RenderRun::tell(const Scene& scene, const RenderSettings& settings, const P
                   " pixels are not finite, the first of them " + std::to_string(x) + "," + std::to_string(y) +
                   "\n  again: " + command_for(options_, planned, one_pixel(x, y)));
   }
+  if (statistics.rays.unresolved > 0) {
+    progress_.say("backlight: warning: " + file + ": " + std::to_string(statistics.rays.unresolved) + " of " +
+                  std::to_string(statistics.rays.primary) +
+                  " camera rays meet a surface where its root is not resolved (the channel 'unresolved' "
+                  "shows where)");
+  }
   if (options_.verbosity == Verbosity::quiet) return;
   if (progress_.style() == ProgressStyle::json) {
     progress_.say(R"({"event":"image",)" +

@@ -41,6 +41,10 @@ Expression::Expression() {
 
 Expression::Expression(std::shared_ptr<const Compiled> compiled) : compiled_(std::move(compiled)) {}
 
+Expression Expression::from_tape(std::string text, Tape tape, std::size_t variables) {
+  return Expression(std::make_shared<const Compiled>(Compiled{std::move(text), std::move(tape), variables}));
+}
+
 std::variant<Expression, ExpressionError> Expression::parse(std::string_view text,
                                                             const std::vector<std::string>& variables) {
   Graph graph;

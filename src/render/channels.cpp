@@ -27,6 +27,7 @@ constexpr std::array data_channels{
     DataChannel{"N", "N.Y", [](const R& r) { return r.normal.y; }},
     DataChannel{"N", "N.Z", [](const R& r) { return r.normal.z; }},
     DataChannel{"objectId", "objectId.V", [](const R& r) { return static_cast<double>(r.object_id); }},
+    DataChannel{"unresolved", "unresolved.V", [](const R& r) { return r.unresolved ? 1.0 : 0.0; }},
     DataChannel{"light", "light.N", [](const R& r) { return static_cast<double>(r.lamps); }},
     DataChannel{"light", "light.Y", [](const R& r) { return r.unshifted; }},
 };

@@ -229,6 +229,7 @@ RenderStatistics summed(const std::vector<ThreadMemory>& memories) {
     statistics.rays.shadow += rays.shadow;
     statistics.rays.data += rays.data;
     statistics.rays.non_finite += rays.non_finite;
+    statistics.rays.unresolved += rays.unresolved;
   }
   return statistics;
 }

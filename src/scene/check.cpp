@@ -20,10 +20,8 @@ struct NotYet {
   std::string_view name;
   std::string_view instead;
 };
-constexpr std::array<NotYet, 4> keys_not_yet{{{"film", "tolerance", "give 'samples' instead"},
-                                              {"object", "f", ""},
-                                              {"object", "bounds", ""},
-                                              {"object", "file", ""}}};
+constexpr std::array<NotYet, 2> keys_not_yet{
+    {{"film", "tolerance", "give 'samples' instead"}, {"object", "file", ""}}};
 
 bool is_identifier(const std::string& name) {
   const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
@@ -80,8 +78,7 @@ class Checker {
     const auto has = [&](std::string_view choice) {
       return find_key(*find_variant(keys, choice), name) != nullptr;
     };
-    return std::any_of(selector.choices.begin(), selector.choices.end(), has) || name == "f" ||
-           name == "bounds" || name == "file";
+    return std::any_of(selector.choices.begin(), selector.choices.end(), has) || name == "file";
   }
 
   void unknown(const Entry& entry, const KeyTable& keys, const KeyTable* variant, const std::string& where) {
@@ -191,8 +188,8 @@ class Checker {
     const std::string text = *node.text();
     if (std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end()) return;
     node.value = Invalid{};
-    if (key.name == "shape" && (text == "mesh" || text == "implicit")) {
-      return error(node.place, "the shape '" + text + "' is not available in this version");
+    if (key.name == "shape" && text == "mesh") {
+      return error(node.place, "the shape 'mesh' is not available in this version");
     }
     if (key.name == "shape" && (text == "polynomial" || text == "csg")) {
       return error(node.place, "'" + text + "' is not a value of 'shape'",

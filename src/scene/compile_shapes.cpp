@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "compile_formulas.h"
+
 namespace backlight {
 namespace {
 
@@ -50,6 +52,11 @@ class ShapeReader {
       if (!shape) return std::nullopt;
       return CompiledShape{*std::move(shape), {}};
     }
+    if (is_blend(table)) {
+      auto shape = blend(table, material, 1);
+      if (!shape) return std::nullopt;
+      return CompiledShape{*std::move(shape), members_};
+    }
     SolidTree tree;
     tree.operation = *operation;
     if (!parts(table, material, 1, tree)) return std::nullopt;
@@ -61,6 +68,7 @@ class ShapeReader {
   std::optional<Shape> single(const TableView& table) {
     const std::size_t errors = c_.values.diagnostics.error_count();
     const std::string name = table.text("shape");
+    if (name == "implicit") return compile_implicit(c_, table);
     const auto* form = std::find_if(closed_forms.begin(), closed_forms.end(),
                                     [&](const ClosedForm& candidate) { return candidate.name == name; });
     if (form == closed_forms.end()) return std::nullopt;
@@ -102,20 +110,75 @@ class ShapeReader {
     if (const std::string wrong = problem(tree.placement); !wrong.empty()) {
       table.error(table.has("scale") ? "scale" : "position", wrong);
     }
-    if (const auto operation = operation_of(table.text("shape"))) {
+    const auto operation = operation_of(table.text("shape"));
+    if (operation && !is_blend(table)) {
       tree.operation = *operation;
       if (!parts(table, material, depth + 1, tree)) return std::nullopt;
     } else {
-      auto shape = single(table);
+      auto shape = operation ? blend(table, material, depth + 1) : single(table);
       if (!shape) return std::nullopt;
       tree.shape = *std::move(shape);
-      tree.member = member(material);
+      tree.member = operation ? 0 : member(material);
       if (!is_solid(tree.shape)) {
         table.error("shape", problem(tree), "a cylinder of little height has an inside");
       }
     }
     if (c_.values.diagnostics.error_count() > errors) return std::nullopt;
     return tree;
+  }
+
+  static bool is_blend(const TableView& table) {
+    return table.text("shape") == "union" && table.has_valid("blend");
+  }
+
+  std::optional<Shape> blend(const TableView& table, int material, int depth) {
+    const Node* written = table.node_of("part");
+    if (depth > deepest_solid || written == nullptr || written->array() == nullptr) return std::nullopt;
+    std::vector<BlendPart> parts;
+    bool good = true;
+    for (const Node& node : *written->array()) {
+      auto part = blend_part(TableView(c_.values, &node, *find_table("object.part")), material);
+      if (part) {
+        parts.push_back(*std::move(part));
+      } else {
+        good = false;
+      }
+    }
+    if (!good || parts.empty()) return std::nullopt;
+    return compile_blend(c_, table, parts);
+  }
+
+  std::optional<BlendPart> blend_part(const TableView& table, int inherited) {
+    const int material = table.has("material") ? materials_.of(table) : inherited;
+    BlendPart part;
+    part.placement = Placement(table.vector("position"), table.vector("rotate"), read_scale(table));
+    part.member = member(material);
+    if (!table.complete()) return std::nullopt;
+    if (const std::string wrong = problem(part.placement); !wrong.empty()) {
+      table.error(table.has("scale") ? "scale" : "position", wrong);
+      return std::nullopt;
+    }
+    if (table.text("shape") == "implicit") {
+      part.bounds = written_bounds(table);
+      auto formula = bound_formula(c_, table);
+      if (!formula) return std::nullopt;
+      part.formula = *std::move(formula);
+      return part;
+    }
+    if (operation_of(table.text("shape"))) {
+      table.error("shape", "a blend takes formulas and simple shapes, not solids made of others",
+                  "list their parts in this union itself");
+      return std::nullopt;
+    }
+    const auto shape = single(table);
+    auto formula = shape ? formula_of(*shape) : std::nullopt;
+    if (shape && !formula) {
+      table.error("shape", "a " + table.text("shape") + " has no formula to blend",
+                  "write one: shape = \"implicit\" with f");
+    }
+    if (!formula) return std::nullopt;
+    part.formula = *std::move(formula);
+    return part;
   }
 
   int member(int material) {

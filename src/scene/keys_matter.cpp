@@ -91,8 +91,8 @@ void add_shape_keys(std::vector<Key>& keys, std::string_view centre, std::string
                   "",
                   "Which surface; its own keys are in the tables below.",
                   {},
-                  {"sphere", "box", "cylinder", "cone", "torus", "disk", "plane", "quadric", "union",
-                   "intersection", "difference"}});
+                  {"sphere", "box", "cylinder", "cone", "torus", "disk", "plane", "quadric", "implicit",
+                   "union", "intersection", "difference"}});
   keys.push_back(numbers("position", 3, std::vector<double>{0, 0, 0}, "length", centre));
   keys.push_back(numbers("rotate", 3, std::vector<double>{0, 0, 0}, "degrees",
                          "Turned about the x axis, then about y, then about z (fixed axes)."));
@@ -155,6 +155,15 @@ Key length(std::string_view name, DefaultValue value, std::string_view meaning, 
   return number(name, std::move(value), "length", meaning, range);
 }
 
+Key unresolved() {
+  return choice(
+      "unresolved", std::string("take"), {"take", "skip"},
+      "What becomes of a root that cannot be isolated to full precision: one of even multiplicity, where "
+      "the surface is only touched, or so near to another that rounding hides which. `take`: it is "
+      "seen; `skip`: the ray goes on. They are counted in `--stats` and shown by the channel "
+      "`unresolved`.");
+}
+
 std::vector<KeyTable> shapes() {
   const std::string_view heading = "[[object]]";
   std::vector<KeyTable> tables;
@@ -191,22 +200,64 @@ std::vector<KeyTable> shapes() {
         "the "
         "plane's.",
         {numbers("coefficients", 10, Required{}, "", "c0 to c9.")});
-  const auto solid = [&](std::string_view name, std::string_view meaning) {
-    shape(name, meaning,
-          {structured("part", {{ValueKind::tables, 0, "object.part"}}, "What it is made of, at least one.")});
-    tables.back().keys.front().value = Required{};
+  shape(
+      "object.implicit",
+      "Where a formula is zero, within bounds: f(x, y, z, t) = 0, solid where f < 0. Every root along a ray "
+      "is "
+      "found, with a proof by interval arithmetic that there is no other; no step size, accuracy or gradient "
+      "need be given. Poles, jumps and edges of domains are no surface. On its own the surface is an open "
+      "sheet "
+      "where the bounds cut it; as a part of a solid (a union of one part will do) flat faces close it "
+      "there. "
+      "Texture: longitude and latitude about y, as the sphere's.",
+      {{"f",
+        {{ValueKind::formula}},
+        Required{},
+        "",
+        "Of `x`, `y`, `z` (its own coordinates), `t` (its own proper time in seconds: it may pulsate), "
+        "`frame` "
+        "and the parameters; with the functions of every expression.",
+        {},
+        {}},
+       points("bounds", 2, "length",
+              "Two opposite corners of a box in its own coordinates: nothing is seen of the surface outside. "
+              "Without it, a box is sought outside which f is proved to be positive (or negative): that "
+              "succeeds for formulas of + - * /, powers, roots, abs, min and max that grow in every "
+              "direction, also with sin, cos, atan, tanh, floor and mod added. What cannot be proved is an "
+              "error."),
+       unresolved()});
+  const auto solid = [&](std::string_view name, std::string_view meaning, std::vector<Key> more) {
+    std::vector<Key> keys{
+        structured("part", {{ValueKind::tables, 0, "object.part"}}, "What it is made of, at least one.")};
+    keys.front().value = Required{};
+    for (Key& key : more) keys.push_back(std::move(key));
+    shape(name, meaning, std::move(keys));
   };
   solid("object.union",
         "All parts together. Faces of two parts that coincide (to within their rounding errors) count once: "
         "solids that touch have no wall between them, and where both end the first part in the file gives "
         "material and texture. A part that is a plane is the half-space below it (y < 0 in its own "
         "coordinates), and a quadric is solid where its formula is negative. Texture coordinates are the "
-        "part's own.");
+        "part's own.",
+        {number(
+             "blend", Nothing{}, "units of f",
+             "The parts flow into each other where their formulas differ by less than this: instead of "
+             "min(a, b), min(a, b) - k/4 (1 - min(|a - b|/k, 1))² (the quadratic polynomial smooth "
+             "minimum, I. Quilez, https://iquilezles.org/articles/smin), part after part in the order of the "
+             "file. Parts are `implicit`, or a sphere, box, cylinder, torus, plane or quadric (taken as "
+             "their signed distance; the quadric as its formula). The material is that of "
+             "the part whose formula is least.",
+             above(0)),
+         points("bounds", 2, "length",
+                "Of a blend, as an implicit surface's. Without it they are proved, or else are those of its "
+                "parts together, where those are written."),
+         unresolved()});
   solid("object.intersection",
-        "What all parts have in common. Solids that only touch have nothing in common.");
+        "What all parts have in common. Solids that only touch have nothing in common.", {});
   solid("object.difference",
         "The first part without all others, which leave walls with their own materials. A part that ends "
-        "flush with the first leaves no skin.");
+        "flush with the first leaves no skin.",
+        {});
   return tables;
 }
 

@@ -67,12 +67,14 @@ KeyTable film() {
         "",
         "Channels besides the colour, of the ray through the pixel's centre: light-travel distance, Doppler "
         "factor, world time and own time of the emission, point and normal in the object's rest frame, the "
-        "object's number in the file, and the light: `light.N`, how many lights reach the point (its own one "
+        "object's number in the file, 1 where a root is not resolved (`unresolved`, see the shape implicit), "
+        "and the "
+        "light: `light.N`, how many lights reach the point (its own one "
         "of them; -1 where there is no surface), and `light.Y`, the luminance it would have if no colour "
         "were "
         "shifted.",
         {},
-        {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId", "light"}}},
+        {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId", "unresolved", "light"}}},
       ""};
 }
 

@@ -246,7 +246,7 @@ LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& c
     result.u = point.u;
     result.v = point.v;
     result.error = point.error_bound;
-    result.member = leaf.member;
+    result.member = leaf.surface.shape.blend ? point.member : leaf.member;
     return off == 0.0;
   });
   return result;

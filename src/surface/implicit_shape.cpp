@@ -1,12 +1,18 @@
 // The implicit surface f = 0 inside its bounds, as a shape.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
-#include "backlight/surface/implicit.h"
+#include "backlight/surface/implicit_surface.h"
 #include "convex.h"
 #include "implicit_roots.h"
 
 namespace backlight {
 namespace {
+
+// Beside the two corners, `values` of an implicit shape hold:
+constexpr std::size_t time_scale = 6;  // seconds_per_length
+constexpr std::size_t skips = 7;       // 1: unresolved roots are no surface
 
 constexpr int caps = 1;  // parts 1..6: the faces of the bounds, where they cut the inside
 
@@ -49,10 +55,29 @@ Stretch inside_bounds(const Shape& shape, const LocalLine& line) {
   return stretch;
 }
 
-FormulaLine formula_line(const LocalLine& line) {
+FormulaLine formula_line(const Shape& shape, const LocalLine& line) {
   const Vec3& p = line.point;
   const Vec3& d = line.direction;
-  return {{p.x, p.y, p.z, line.clock.start}, {d.x, d.y, d.z, line.clock.rate}};
+  const double scale = shape.values[time_scale];
+  return {{p.x, p.y, p.z, scale * line.clock.start}, {d.x, d.y, d.z, scale * line.clock.rate}};
+}
+
+/// Whether a root is left out.
+bool skipped(const Shape& shape, const Root& root) {
+  return root.kind == RootKind::unresolved && shape.values[skips] != 0.0;
+}
+
+/// Which of the formulas of a blend is the least.
+int member_at(const Shape& shape, const Vec3& p, double time) {
+  int member = 0;
+  double least = infinite;
+  for (std::size_t i = 0; shape.blend && i < shape.blend->formulas.size(); ++i) {
+    const double value = shape.blend->formulas[i].value(p, time);
+    if (!(value < least)) continue;
+    least = value;
+    member = shape.blend->members[i];
+  }
+  return member;
 }
 
 Crossing crossing_of(const Root& root) {
@@ -67,10 +92,10 @@ Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_
     from = std::max(from, (lambda_min - line.lambda_centre - line.lambda_shift) / line.lambda_per_length);
   }
   if (!(from <= stretch.out)) return result;
-  RootWalk walk(*shape.formula, formula_line(line), from, stretch.out);
+  RootWalk walk(*shape.formula, formula_line(shape, line), from, stretch.out);
   Root root;
   while (result.count < 4 && walk.next(root)) {
-    if (wanted == Wanted::first && !(line.lambda(root.t) > lambda_min)) continue;
+    if (skipped(shape, root) || (wanted == Wanted::first && !(line.lambda(root.t) > lambda_min))) continue;
     result.list[result.count++] = crossing_of(root);
     if (wanted == Wanted::first) break;
   }
@@ -87,16 +112,21 @@ void profile_of(const Shape& shape, const LocalLine& line, SolidProfile& profile
     if (now != inside) profile.events.push_back({{t, part, false}, false});
     inside = now;
   };
-  RootWalk walk(*shape.formula, formula_line(line), stretch.in, stretch.out);
+  RootWalk walk(*shape.formula, formula_line(shape, line), stretch.in, stretch.out);
   become(walk.sign_at_start() < 0, stretch.in, stretch.part_in);
   for (Root root; walk.next(root);) {
     const bool now = root.sign_after < 0;
     // At the edge of a domain or behind a jump f may have changed its sign without a root.
     become(root.sign_before < 0, root.lower, 0);
-    profile.events.push_back({crossing_of(root), now == inside});
+    if (now != inside || !skipped(shape, root)) profile.events.push_back({crossing_of(root), now == inside});
     inside = now;
   }
   become(false, stretch.out, stretch.part_out);
+}
+
+/// From 0 at +y to 1 at -y.
+double latitude(const Vec3& p) {
+  return std::atan2(std::hypot(p.x, p.z), p.y) * std::numbers::inv_pi;
 }
 
 /// How far f's rounding hides its zero about an unresolved root, backwards along the line.
@@ -109,9 +139,14 @@ double hidden_length(const ImplicitFormula& f, const LocalLine& line, double t, 
   return length;
 }
 
-LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
+LocalPoint point_of(const Shape& shape, const LocalLine& in_frame_time, const Crossing& crossing) {
+  LocalLine line = in_frame_time;
+  line.clock.start *= shape.values[time_scale];
+  line.clock.rate *= shape.values[time_scale];
   const Vec3 p = line.at(crossing.t);
-  LocalPoint result{p, -line.direction, p.x, p.z};
+  LocalPoint result{p, -line.direction, longitude(p.x, p.z), latitude(p)};
+  const double time = line.clock.start + crossing.t * line.clock.rate;
+  result.member = member_at(shape, p, time);
   if (crossing.part >= caps) {
     const int face = crossing.part - caps;
     result.gradient = Vec3{0.0};
@@ -121,7 +156,6 @@ LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& c
   }
   const ImplicitFormula& f = *shape.formula;
   const double size = glm::length(high_of(shape) - low_of(shape));
-  const double time = line.clock.start + crossing.t * line.clock.rate;
   if (crossing.unresolved) {
     result.error = hidden_length(f, line, crossing.t, size);
     const double before = crossing.t - result.error;
@@ -138,8 +172,6 @@ LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& c
   if (glm::length(step) < 1e-12 * size) result.position = p - step;
   const Interval left = f.range(result.position, result.position, {time, time, Continuity::continuous});
   result.error = std::min(2.0 * std::max(-left.lower, left.upper) / std::sqrt(square), 1e-3 * size);
-  result.u = result.position.x;
-  result.v = result.position.z;
   return result;
 }
 
@@ -149,8 +181,16 @@ const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",   true,    
                                     extent_of,           crossings_of, point_of, profile_of};
 
 Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high) {
-  Shape shape{ShapeKind::implicit, {low.x, low.y, low.z, high.x, high.y, high.z}, {}, {}};
+  return implicit(std::move(f), low, high, ImplicitOptions{});
+}
+
+Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high,
+               const ImplicitOptions& options) {
+  Shape shape{ShapeKind::implicit, {low.x, low.y, low.z, high.x, high.y, high.z}, {}, {}, {}};
+  shape.values[time_scale] = options.seconds_per_length;
+  shape.values[skips] = options.unresolved == UnresolvedRoots::skip ? 1.0 : 0.0;
   shape.formula = std::move(f);
+  shape.blend = options.blend;
   return shape;
 }
 

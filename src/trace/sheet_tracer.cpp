@@ -343,6 +343,7 @@ class SheetPainter {
       const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
       const auto place = static_cast<std::size_t>(sheet.place[p.lane[i] % sheet_size]);
       light_.colour[place] = {p.rgb[0][i], p.rgb[1][i], p.rgb[2][i]};
+      if (hits_[i].unresolved) ++scratch_.counts.unresolved;
       if (records_) light_.record[place] = record_of(occupant, i);
     }
   }
@@ -363,6 +364,7 @@ class SheetPainter {
     record.proper_time = p.proper_time[i] / scene.c;
     record.position = {p.position[0][i], p.position[1][i], p.position[2][i]};
     record.normal = {p.normal[0][i], p.normal[1][i], p.normal[2][i]};
+    record.unresolved = hits_[i].unresolved;
     return record;
   }
 

@@ -59,6 +59,7 @@ LinearRgb Tracer::colour(const CameraRay& ray, const Effects& effects, Scratch& 
 
 LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Effects& effects,
                             Scratch& scratch) const {
+  if (hit.hit.unresolved) ++scratch.counts.unresolved;
   const int frame = hit.found() ? hit.frame : scene_->sky.frame;
   const RestRayEvents& events = scratch.rays.in(frame);
 
@@ -108,6 +109,7 @@ SurfaceRecord Tracer::surface_of(const CameraRay& ray, const FirstHit& hit, Scra
   record.proper_time = point.proper_time / scene_->c;
   record.position = point.surface.position;
   record.normal = point.normal;
+  record.unresolved = hit.hit.unresolved;
   return record;
 }
 

@@ -15,6 +15,8 @@
 
 namespace backlight {
 
+class Composer;
+
 /// Why a text is not an expression. The column counts from 1 within the text, in characters (UTF-8 code
 /// points), and `length` is in characters too: the caret of a diagnostic.
 struct ExpressionError {
@@ -84,7 +86,9 @@ class Expression {
   [[nodiscard]] const Tape& tape() const;
 
  private:
+  friend class Composer;
   struct Compiled;
+  static Expression from_tape(std::string text, Tape tape, std::size_t variables);
   explicit Expression(std::shared_ptr<const Compiled> compiled);
 
   std::shared_ptr<const Compiled> compiled_;

@@ -11,6 +11,7 @@
 namespace backlight {
 
 class ImplicitFormula;
+struct ImplicitBlend;
 class Solid;
 
 /// The kinds of surfaces. What each can do is in one table, src/surface/shape_table.h.
@@ -34,6 +35,7 @@ struct Shape {
   std::array<double, 10> values{};       ///< the arguments of the function that made it, in their order
   std::shared_ptr<const Solid> solid{};  ///< csg: what it is made of (surface/solid.h)
   std::shared_ptr<const ImplicitFormula> formula{};  ///< implicit (surface/implicit.h)
+  std::shared_ptr<const ImplicitBlend> blend{};  ///< implicit: what was blended (surface/implicit_surface.h)
 };
 
 /// |x| = radius. Texture: u = 1/2 + atan2(x, z)/2pi, v = polar angle from +y over pi. So the +z axis pierces
@@ -73,7 +75,7 @@ Shape quadric(const std::array<double, 10>& coefficients);
 
 /// f = 0 inside the box from `low` to `high`; the outside (where the normal points) is where f > 0. The
 /// surface is open where the box cuts it; as a part of a solid, the box closes it. Parts: 0 the surface, 1..6
-/// such closing faces, as of a box. Texture: u = x, v = z.
+/// such closing faces, as of a box. Texture: longitude and latitude about the y axis, as the sphere's.
 Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high);
 
 /// Whether the surface fits into no sphere (plane and quadric; an ellipsoid given as a quadric counts as

@@ -15,6 +15,8 @@ struct RayCounts {
   std::uint64_t shadow = 0;      ///< segments to lamps that were tested
   std::uint64_t data = 0;        ///< pixel-centre rays for the data channels alone
   std::uint64_t non_finite = 0;  ///< pixels with a NaN or an infinity
+  /// Camera rays that see a root which could not be isolated to full precision (surface/implicit.h).
+  std::uint64_t unresolved = 0;
 };
 
 /// Working memory of one thread.

@@ -16,6 +16,7 @@ struct SurfaceRecord {
   double emission_time = 0.0;  ///< world time of the emission event, scene seconds
   double proper_time = 0.0;    ///< the object's frame time of it, scene seconds
   Vec3 position{0.0};          ///< P, in the object's rest frame
+  bool unresolved = false;     ///< the root could not be isolated to full precision (surface/implicit.h)
   Vec3 normal{0.0};            ///< N, facing the ray, in the object's rest frame
   int lamps = -1;              ///< lights that reach the point, own emission one of them; -1: no surface
   double unshifted = 0.0;      ///< luminance of the film colour, had no wavelength been shifted on its way

@@ -1,0 +1,52 @@
+// Surfaces given by formulas: what may be chosen, and where they can be.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "backlight/surface/implicit.h"
+#include "backlight/surface/shape.h"
+
+namespace backlight {
+
+/// What becomes of a root that cannot be isolated to full precision (one of even multiplicity, above all).
+enum class UnresolvedRoots { take, skip };
+
+/// The formulas that were blended into one, and the member that each stands for: where the blend is hit,
+/// SurfacePoint::member is that of the formula that is least there.
+struct ImplicitBlend {
+  std::vector<ImplicitFormula> formulas;
+  std::vector<int> members;
+};
+
+struct ImplicitOptions {
+  UnresolvedRoots unresolved = UnresolvedRoots::take;
+  /// Of the formula's t for one unit of the frame's time (c = 1).
+  double seconds_per_length = 1.0;
+  std::shared_ptr<const ImplicitBlend> blend{};
+};
+
+/// As implicit(f, low, high) of surface/shape.h.
+Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high, const ImplicitOptions& options);
+
+/// A box outside which f has one sign.
+struct FormulaBounds {
+  Vec3 low{0.0};
+  Vec3 high{0.0};
+  bool inside_beyond = false;  ///< whether that sign is negative: the solid goes on forever
+};
+
+/// Bounds that hold for every t; nothing when none can be proved.
+///
+/// Far out, f is looked at in projective coordinates: a point is s·(direction), the direction on a face of
+/// the cube of half edge 1, and f is s^d times an expression g of the direction and of w = 1/s, which is
+/// regular at infinity, w = 0. Where interval arithmetic over pieces of the faces shows g > 0 (or g < 0) for
+/// all w in [0, W], there is no surface outside the cube of half edge 1/W. That settles every formula of + -
+/// * /, powers, roots, abs, min and max whose leading terms vanish nowhere on the cube, and what sin, cos,
+/// atan, tanh, floor and mod add to such a formula. It does not settle exp and log of what grows, nor a
+/// surface that comes from infinity. The cube is then cut down to a box, side by side, by intervals over
+/// slabs.
+std::optional<FormulaBounds> prove_bounds(const ImplicitFormula& formula);
+
+}  // namespace backlight

@@ -1,0 +1,223 @@
+#include "compile_formulas.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+
+#include "backlight/expression/compose.h"
+
+namespace backlight {
+namespace {
+
+using GraphNode = Composer::Node;
+using Coordinates = std::array<GraphNode, 4>;  // x, y, z, t
+
+// local_from_rest (X - position), row by row; what is zero or one leaves no trace in the formula.
+Coordinates within(Composer& composer, const Coordinates& outer, const Placement& placement) {
+  Coordinates inner = outer;
+  Coordinates offset = outer;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const double position = placement.position()[static_cast<int>(j)];
+    if (position != 0.0) {
+      offset[j] = composer.apply(Operation::subtract, outer[j], composer.constant(position));
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    std::optional<GraphNode> sum;
+    for (int j = 0; j < 3; ++j) {
+      const double factor = placement.local_from_rest()[j][i];
+      if (factor == 0.0) continue;
+      GraphNode term = offset[static_cast<std::size_t>(j)];
+      if (factor != 1.0) term = composer.apply(Operation::multiply, composer.constant(factor), term);
+      sum = sum ? composer.apply(Operation::add, *sum, term) : term;
+    }
+    inner[static_cast<std::size_t>(i)] = sum.value_or(composer.constant(0.0));
+  }
+  return inner;
+}
+
+// min(a, b) - k/4 (1 - min(|a - b|/k, 1))².
+GraphNode smooth_minimum(Composer& composer, GraphNode a, GraphNode b, double k) {
+  const GraphNode apart = composer.apply(Operation::abs, composer.apply(Operation::subtract, a, b));
+  const GraphNode one = composer.constant(1.0);
+  const GraphNode part =
+      composer.apply(Operation::min, composer.apply(Operation::divide, apart, composer.constant(k)), one);
+  const GraphNode dent =
+      composer.apply(Operation::multiply, composer.constant(0.25 * k),
+                     composer.apply(Operation::square, composer.apply(Operation::subtract, one, part)));
+  return composer.apply(Operation::subtract, composer.apply(Operation::min, a, b), dent);
+}
+
+Expression parsed(const std::string& text, const std::vector<std::string>& names,
+                  const std::vector<double>& values) {
+  std::vector<std::string> variables{"x", "y", "z", "t"};
+  variables.insert(variables.end(), names.begin(), names.end());
+  return std::get<Expression>(Expression::parse(text, variables)).bind(ImplicitFormula::variables, values);
+}
+
+UnresolvedRoots read_unresolved(const TableView& table) {
+  return table.text("unresolved") == "skip" ? UnresolvedRoots::skip : UnresolvedRoots::take;
+}
+
+// The boxes of all parts, in the coordinates of the whole; nothing unless all are written.
+std::optional<FormulaBounds> together(const std::vector<BlendPart>& parts) {
+  FormulaBounds whole;
+  whole.low = Vec3{std::numeric_limits<double>::infinity()};
+  whole.high = -whole.low;
+  for (const BlendPart& part : parts) {
+    if (!part.bounds) return std::nullopt;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 local{(corner & 1) != 0 ? part.bounds->high.x : part.bounds->low.x,
+                       (corner & 2) != 0 ? part.bounds->high.y : part.bounds->low.y,
+                       (corner & 4) != 0 ? part.bounds->high.z : part.bounds->low.z};
+      const Vec3 there = part.placement.position() + part.placement.rest_from_local() * local;
+      whole.low = glm::min(whole.low, there);
+      whole.high = glm::max(whole.high, there);
+    }
+  }
+  return whole;
+}
+
+std::string number_list(const Vec3& v) {
+  return "[" + number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z) + "]";
+}
+
+// Whether the formula makes a surface at all within its bounds.
+bool makes_sense(const TableView& table, std::string_view key, const ImplicitFormula& formula,
+                 const FormulaBounds& bounds) {
+  const double everything = std::numeric_limits<double>::infinity();
+  const Interval value =
+      formula.range(bounds.low, bounds.high, {-everything, everything, Continuity::continuous});
+  if (value.continuity == Continuity::undefined) {
+    table.error(key, "the formula is defined nowhere within its bounds");
+    return false;
+  }
+  if (value.lower == 0.0 && value.upper == 0.0) {
+    table.error(key, "the formula is 0 everywhere within its bounds: that is no surface");
+    return false;
+  }
+  return true;
+}
+
+std::optional<Shape> finished(Compilation& c, const TableView& table, std::string_view key,
+                              const std::shared_ptr<const ImplicitFormula>& formula,
+                              const std::optional<FormulaBounds>& bounds,
+                              const std::shared_ptr<const ImplicitBlend>& blend = {}) {
+  if (!bounds) {
+    table.error(key, "this surface has no bounds, or they cannot be proved",
+                "write the two corners of a box to show it in: bounds = [[-2, -2, -2], [2, 2, 2]]");
+    return std::nullopt;
+  }
+  const Shape shape =
+      implicit(formula, bounds->low, bounds->high, {read_unresolved(table), 1.0 / c.scene.c, blend});
+  if (const std::string wrong = problem(shape); !wrong.empty()) {
+    table.error("bounds", wrong,
+                "they are " + number_list(bounds->low) + " and " + number_list(bounds->high));
+    return std::nullopt;
+  }
+  if (!makes_sense(table, key, *formula, *bounds)) return std::nullopt;
+  return shape;
+}
+
+}  // namespace
+
+std::optional<FormulaBounds> written_bounds(const TableView& table) {
+  if (!table.has_valid("bounds") || !table.is_sound("bounds")) return std::nullopt;
+  FormulaBounds bounds;
+  bounds.low = table.vector_at("bounds", 0);
+  bounds.high = table.vector_at("bounds", 1);
+  return bounds;
+}
+
+std::optional<Expression> bound_formula(Compilation& c, const TableView& table) {
+  const Node* written = table.node_of("f");
+  const auto* formula = written != nullptr ? std::get_if<Expression>(&written->value) : nullptr;
+  if (formula == nullptr) return std::nullopt;
+  const std::vector<double>& values = c.values.variables;  // t, frame, parameters
+  Expression bound = formula->bind(ImplicitFormula::variables, std::span(values).subspan(1));
+  for (std::size_t i = 0; i < formula_coordinates; ++i) {
+    if (bound.uses(i)) return bound;
+  }
+  table.error("f", "the formula does not depend on x, y or z: that is no surface");
+  return std::nullopt;
+}
+
+std::optional<Shape> compile_implicit(Compilation& c, const TableView& table) {
+  const auto formula = bound_formula(c, table);
+  if (!formula) return std::nullopt;
+  const auto surface = std::make_shared<const ImplicitFormula>(*formula);
+  if (table.has("bounds")) {
+    const auto bounds = written_bounds(table);
+    return bounds ? finished(c, table, "f", surface, bounds) : std::nullopt;
+  }
+  const auto bounds = prove_bounds(*surface);
+  return finished(c, table, "f", surface, bounds);
+}
+
+std::optional<Expression> formula_of(const Shape& shape) {
+  const auto& v = shape.values;
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return parsed("sqrt(x^2 + y^2 + z^2) - radius", {"radius"}, {v[0]});
+    case ShapeKind::torus:
+      return parsed("sqrt((sqrt(x^2 + z^2) - major)^2 + y^2) - minor", {"major", "minor"}, {v[0], v[1]});
+    case ShapeKind::plane:
+      return parsed("y", {}, {});
+    case ShapeKind::box:
+      return parsed(
+          "sqrt(max(abs(x) - a, 0)^2 + max(abs(y) - b, 0)^2 + max(abs(z) - c, 0)^2)"
+          " + min(max(abs(x) - a, abs(y) - b, abs(z) - c), 0)",
+          {"a", "b", "c"}, {0.5 * v[0], 0.5 * v[1], 0.5 * v[2]});
+    case ShapeKind::cylinder:
+      return parsed(
+          "sqrt(max(sqrt(x^2 + z^2) - r, 0)^2 + max(abs(y) - h, 0)^2)"
+          " + min(max(sqrt(x^2 + z^2) - r, abs(y) - h), 0)",
+          {"r", "h"}, {v[0], 0.5 * v[1]});
+    case ShapeKind::quadric:
+      return parsed("c0*x^2 + c1*y^2 + c2*z^2 + c3*x*y + c4*x*z + c5*y*z + c6*x + c7*y + c8*z + c9",
+                    {"c0", "c1", "c2", "c3", "c4", "c5", "c6", "c7", "c8", "c9"}, {v.begin(), v.end()});
+    case ShapeKind::cone:
+    case ShapeKind::disk:
+    case ShapeKind::csg:
+    case ShapeKind::implicit:
+      break;
+  }
+  return std::nullopt;
+}
+
+Expression blended(const std::vector<BlendPart>& parts, double blend) {
+  Composer composer(ImplicitFormula::variables);
+  const Coordinates outer{composer.variable(0), composer.variable(1), composer.variable(2),
+                          composer.variable(3)};
+  std::optional<Composer::Node> whole;
+  std::string text;
+  for (const BlendPart& part : parts) {
+    const Composer::Node one = composer.insert(part.formula, within(composer, outer, part.placement));
+    whole = whole ? smooth_minimum(composer, *whole, one, blend) : one;
+    text += (text.empty() ? "blend of " : ", ") + part.formula.text();
+  }
+  return composer.expression(*whole, text);
+}
+
+std::optional<Shape> compile_blend(Compilation& c, const TableView& table,
+                                   const std::vector<BlendPart>& parts) {
+  const Expression formula = blended(parts, table.number("blend"));
+  const auto surface = std::make_shared<const ImplicitFormula>(formula);
+  auto origins = std::make_shared<ImplicitBlend>();
+  for (const BlendPart& part : parts) {
+    origins->formulas.emplace_back(blended({part}, 1.0));
+    origins->members.push_back(part.member);
+  }
+  std::optional<FormulaBounds> bounds;
+  if (table.has("bounds")) {
+    bounds = written_bounds(table);
+    if (!bounds) return std::nullopt;
+  } else {
+    bounds = prove_bounds(*surface);
+    if (!bounds) bounds = together(parts);
+  }
+  return finished(c, table, "shape", surface, bounds, origins);
+}
+
+}  // namespace backlight

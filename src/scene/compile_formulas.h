@@ -1,0 +1,44 @@
+// The formulas of implicit surfaces, and blends of several.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "backlight/surface/implicit_surface.h"
+#include "compile_parts.h"
+
+namespace backlight {
+
+/// The surface of an object or a part with shape = "implicit"; nothing when something is wrong with it, which
+/// has then been reported.
+std::optional<Shape> compile_implicit(Compilation& c, const TableView& table);
+
+/// One part of a blend, in its own coordinates.
+struct BlendPart {
+  Expression formula;  ///< of x, y, z, t
+  Placement placement;
+  int member = 0;
+  std::optional<FormulaBounds> bounds;  ///< as written
+};
+
+/// The formula of a closed form that a blend may take: its signed distance (a quadric's own formula); nothing
+/// for the others.
+std::optional<Expression> formula_of(const Shape& shape);
+
+/// The parts as one: their formulas in the coordinates of the whole, joined by smooth minima in their order
+/// (docs/scene-reference.md, `blend`).
+Expression blended(const std::vector<BlendPart>& parts, double blend);
+
+/// The surface of a union with `blend`; nothing when something is wrong with it, which has then been
+/// reported.
+std::optional<Shape> compile_blend(Compilation& c, const TableView& table,
+                                   const std::vector<BlendPart>& parts);
+
+/// What the key `f` says, with the parameters of this image in their places; nothing when it is wrong.
+std::optional<Expression> bound_formula(Compilation& c, const TableView& table);
+
+/// The written bounds; nothing when there are none or when they are wrong (and reported).
+std::optional<FormulaBounds> written_bounds(const TableView& table);
+
+}  // namespace backlight
