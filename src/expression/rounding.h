@@ -50,6 +50,15 @@ class RoundUp {
   RoundUp& operator=(const RoundUp&) = delete;
 };
 
+/// Makes RoundUp::failed() true.
+inline void raise_invalid() {
+#if defined(__SSE2__)
+  _mm_setcsr(_mm_getcsr() | _MM_EXCEPT_INVALID);
+#else
+  std::feraiseexcept(FE_INVALID);
+#endif
+}
+
 /// Calls a function of the C library in the mode it is most accurate in. Through a pointer, so that the
 /// compiler can neither evaluate the call itself nor move it past the change of mode.
 template <class... Arguments>

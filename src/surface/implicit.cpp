@@ -8,7 +8,10 @@
 
 namespace backlight {
 
-ImplicitFormula::ImplicitFormula(Expression f) : f_(std::move(f)), uses_time_(f_.uses(Variable::t)) {
+ImplicitFormula::ImplicitFormula(Expression f)
+    : f_(std::move(f)),
+      uses_time_(f_.uses(Variable::t)),
+      program_(std::make_shared<const LineProgram>(f_.tape())) {
   if (f_.variables() > variables)
     throw std::invalid_argument("ImplicitFormula: variables besides x, y, z, t");
 }

@@ -259,11 +259,4 @@ std::vector<Root> all_roots(const ImplicitFormula& f, const FormulaLine& line, d
   return roots;
 }
 
-Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to) {
-  Root root;
-  RootWalk walk(f, line, from, to);
-  if (!walk.next(root)) root.t = infinity;
-  return root;
-}
-
 }  // namespace backlight

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -41,13 +42,26 @@ struct Root {
 /// All roots in [from, to] in order.
 std::vector<Root> all_roots(const ImplicitFormula& f, const FormulaLine& line, double from, double to);
 
-/// The first root in [from, to]; kind `crossing` and t = infinity when there is none. Without allocations for
-/// formulas of ordinary size.
-Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to);
+/// A piece of a line: s from `from` to `to`.
+struct LinePiece : FormulaLine {
+  double from = 0.0;
+  double to = 0.0;
+};
 
+/// "None": t = infinity.
+inline Root no_root() {
+  return {std::numeric_limits<double>::infinity()};
+}
 inline bool found(const Root& root) {
   return root.t < std::numeric_limits<double>::infinity();
 }
+
+/// The first root on each piece, or no_root(). The lines are searched side by side, over lanes; what is found
+/// of one does not depend on the others (line_search.h).
+void first_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots);
+
+/// The same of one piece.
+Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to);
 
 /// How much work the last search was; for tests and charts.
 struct RootWork {

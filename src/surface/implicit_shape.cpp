@@ -6,6 +6,7 @@
 #include "backlight/surface/implicit_surface.h"
 #include "convex.h"
 #include "implicit_roots.h"
+#include "shape_table.h"
 
 namespace backlight {
 namespace {
@@ -84,22 +85,69 @@ Crossing crossing_of(const Root& root) {
   return {root.t, 0, root.kind == RootKind::unresolved};
 }
 
-Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
+/// What the search for the first roots is given, and where each answer belongs.
+struct Questions {
+  std::vector<LinePiece> pieces;
+  std::vector<std::size_t> line_of;
+  std::vector<Root> roots;
+};
+
+Questions& questions_of_thread() {
+  thread_local Questions questions;
+  questions.pieces.clear();
+  questions.line_of.clear();
+  return questions;
+}
+
+/// The roots on a line from `from` on, one after the other, as far as they are wanted.
+Crossings walk_along(const Shape& shape, const LocalLine& line, double from, double to, double lambda_min,
+                     Wanted wanted) {
   Crossings result;
-  const Stretch stretch = inside_bounds(shape, line);
-  double from = stretch.in;
-  if (wanted == Wanted::first) {
-    from = std::max(from, (lambda_min - line.lambda_centre - line.lambda_shift) / line.lambda_per_length);
-  }
-  if (!(from <= stretch.out)) return result;
-  RootWalk walk(*shape.formula, formula_line(shape, line), from, stretch.out);
-  Root root;
-  while (result.count < 4 && walk.next(root)) {
+  RootWalk walk(*shape.formula, formula_line(shape, line), from, to);
+  for (Root root; result.count < 4 && walk.next(root);) {
     if (skipped(shape, root) || (wanted == Wanted::first && !(line.lambda(root.t) > lambda_min))) continue;
     result.list[result.count++] = crossing_of(root);
     if (wanted == Wanted::first) break;
   }
   return result;
+}
+
+void first_crossings_of(const Shape& shape, std::span<const LocalLine> lines, double lambda_min,
+                        std::span<Crossings> results) {
+  Questions& q = questions_of_thread();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const LocalLine& line = lines[i];
+    results[i] = {};
+    const Stretch stretch = inside_bounds(shape, line);
+    const double start = (lambda_min - line.lambda_centre - line.lambda_shift) / line.lambda_per_length;
+    const double from = std::max(stretch.in, start);
+    if (!(from <= stretch.out)) continue;
+    q.pieces.push_back({formula_line(shape, line), from, stretch.out});
+    q.line_of.push_back(i);
+  }
+  q.roots.resize(q.pieces.size());
+  first_roots(*shape.formula, q.pieces, q.roots);
+  for (std::size_t k = 0; k < q.pieces.size(); ++k) {
+    if (!found(q.roots[k])) continue;
+    const LocalLine& line = lines[q.line_of[k]];
+    Crossings& result = results[q.line_of[k]];
+    if (!skipped(shape, q.roots[k]) && line.lambda(q.roots[k].t) > lambda_min) {
+      result.list[result.count++] = crossing_of(q.roots[k]);
+    } else {
+      result = walk_along(shape, line, q.pieces[k].from, q.pieces[k].to, lambda_min, Wanted::first);
+    }
+  }
+}
+
+Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
+  if (wanted == Wanted::first) {
+    Crossings result;
+    first_crossings_of(shape, {&line, 1}, lambda_min, {&result, 1});
+    return result;
+  }
+  const Stretch stretch = inside_bounds(shape, line);
+  if (!(stretch.in <= stretch.out)) return {};
+  return walk_along(shape, line, stretch.in, stretch.out, lambda_min, wanted);
 }
 
 /// Where the bounds cut the inside, they close it.
@@ -177,8 +225,9 @@ LocalPoint point_of(const Shape& shape, const LocalLine& in_frame_time, const Cr
 
 }  // namespace
 
-const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",   true,     problem_of, radius_of,
-                                    extent_of,           crossings_of, point_of, profile_of};
+const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",        true,         problem_of,
+                                    radius_of,           extent_of,         crossings_of, point_of,
+                                    profile_of,          first_crossings_of};
 
 Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high) {
   return implicit(std::move(f), low, high, ImplicitOptions{});

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,8 @@ struct ShapeMethods {
   LocalPoint (*point)(const Shape&, const LocalLine&, const Crossing&);
   /// All crossings of a shape that may have more than four; null: `crossings` reports them.
   void (*profile)(const Shape&, const LocalLine&, SolidProfile&);
+  /// The first crossings of many lines at once, each as `crossings` would report it; null: one by one.
+  void (*first_crossings)(const Shape&, std::span<const LocalLine>, double lambda_min, std::span<Crossings>);
 };
 
 /// The row of a kind.

@@ -25,6 +25,7 @@ struct FirstCrossing {
   double lambda = std::numeric_limits<double>::infinity();
   int part = 0;
   bool unresolved = false;
+  double along = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Where the ray meets the plane (maybe at λ < 0), or infinity. Only the height above the plane counts: the
@@ -42,20 +43,23 @@ double plane_lambda(const Placement& placement, const RestRay& ray) {
   return -glm::dot(up, ray.origin - placement.position()) / rate;
 }
 
+FirstCrossing first_of(const Crossings& found, const LocalLine& line, double lambda_min) {
+  for (int i = 0; i < found.count; ++i) {
+    const double lambda = line.lambda(found.list[i].t);
+    if (lambda > lambda_min) {
+      return {lambda, found.list[i].part, found.list[i].unresolved, found.list[i].t};
+    }
+  }
+  return {};
+}
+
 FirstCrossing first_crossing(const PlacedSurface& surface, const RestRay& ray, double lambda_min) {
   if (surface.shape.kind == ShapeKind::plane) {
     const double lambda = plane_lambda(surface.placement, ray);
     return lambda > lambda_min ? FirstCrossing{lambda, 0, false} : FirstCrossing{};
   }
   const LocalLine line = local_line(ray, surface);
-  const Crossings found = crossings(surface.shape, line, lambda_min, Wanted::first);
-  for (int i = 0; i < found.count; ++i) {
-    const double lambda = line.lambda(found.list[i].t);
-    if (lambda > lambda_min) {
-      return {lambda, found.list[i].part, found.list[i].unresolved};
-    }
-  }
-  return {};
+  return first_of(crossings(surface.shape, line, lambda_min, Wanted::first), line, lambda_min);
 }
 
 }  // namespace
@@ -136,7 +140,7 @@ bool SurfaceSet::search_range(const RestRay& ray, double lambda_min, std::size_t
     const FirstCrossing crossing =
         first_crossing(surfaces_[static_cast<std::size_t>(index)], ray, lambda_min);
     if (crossing.lambda < best.lambda || (crossing.lambda == best.lambda && index < best.surface)) {
-      best = {crossing.lambda, index, crossing.part, crossing.unresolved};
+      best = {crossing.lambda, index, crossing.part, crossing.unresolved, crossing.along};
       if constexpr (any) {
         return true;
       }
@@ -162,7 +166,7 @@ Hit SurfaceSet::search(const RestRay& ray, double lambda_min, double lambda_max)
     const FirstCrossing crossing =
         first_crossing(surfaces_[static_cast<std::size_t>(index)], ray, lambda_min);
     if (crossing.lambda < best.lambda) {
-      best = {crossing.lambda, index, crossing.part, crossing.unresolved};
+      best = {crossing.lambda, index, crossing.part, crossing.unresolved, crossing.along};
       if constexpr (any) {
         return best;
       }
@@ -192,6 +196,7 @@ SurfacePoint SurfaceSet::resolve(const Hit& hit, const Vec3& origin, const Vec3&
   assert(hit.found());
   const PlacedSurface& surface = surfaces_[static_cast<std::size_t>(hit.surface)];
   const LocalLine line = local_line(RestRay(origin, direction, clock), surface);
+  if (!std::isnan(hit.along)) return surface_point(surface, line, {hit.along, hit.part, hit.unresolved});
   const Crossings found = crossings(surface.shape, line, 0.0, Wanted::first);
   // λ is recomputed as it was, so the hit is found again exactly; a plane's λ has a formula of its own.
   const Crossing* nearest = nullptr;
@@ -217,7 +222,36 @@ Hit SurfaceSet::first_crossing_of(int surface, const Vec3& origin, const Vec3& d
   const FirstCrossing first =
       first_crossing(surfaces_[static_cast<std::size_t>(surface)], RestRay(origin, direction, clock), 0.0);
   if (first.lambda == std::numeric_limits<double>::infinity()) return {};
-  return {first.lambda, surface, first.part, first.unresolved};
+  return {first.lambda, surface, first.part, first.unresolved, first.along};
+}
+
+void SurfaceSet::first_crossings_of(int surface, const Rays& rays, std::span<Hit> hits) const {
+  const PlacedSurface& placed = surfaces_[static_cast<std::size_t>(surface)];
+  const auto vec = [](const double* const(&of)[3], std::size_t i) {
+    return Vec3{of[0][i], of[1][i], of[2][i]};
+  };
+  const auto many = methods(placed.shape).first_crossings;
+  if (many == nullptr) {
+    for (std::size_t i = 0; i < rays.count; ++i) {
+      hits[i] = first_crossing_of(surface, vec(rays.origin, i), vec(rays.direction, i),
+                                  {rays.time[i], rays.rate[i]});
+    }
+    return;
+  }
+  thread_local std::vector<LocalLine> lines;
+  thread_local std::vector<Crossings> found;
+  lines.clear();
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    const RayClock clock{rays.time[i], rays.rate[i]};
+    lines.push_back(local_line(RestRay(vec(rays.origin, i), vec(rays.direction, i), clock), placed));
+  }
+  found.resize(lines.size());
+  many(placed.shape, lines, 0.0, found);
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    const FirstCrossing first = first_of(found[i], lines[i], 0.0);
+    const bool hit = first.lambda < std::numeric_limits<double>::infinity();
+    hits[i] = hit ? Hit{first.lambda, surface, first.part, first.unresolved, first.along} : Hit{};
+  }
 }
 
 LaneSurface SurfaceSet::lane_surface(int surface) const {

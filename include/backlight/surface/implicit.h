@@ -7,6 +7,7 @@
 #include "backlight/base/vector.h"
 #include "backlight/expression/expression.h"
 #include "backlight/expression/interval.h"
+#include "backlight/expression/line_program.h"
 
 namespace backlight {
 
@@ -23,6 +24,8 @@ class ImplicitFormula {
 
   [[nodiscard]] const Expression& expression() const { return f_; }
   [[nodiscard]] bool uses_time() const { return uses_time_; }
+  /// For many lines at once.
+  [[nodiscard]] const LineProgram& program() const { return *program_; }
 
   /// The value in double precision. NaN where f is undefined.
   [[nodiscard]] double value(const Vec3& point, double time = 0.0) const;
@@ -36,6 +39,7 @@ class ImplicitFormula {
  private:
   Expression f_;
   bool uses_time_;
+  std::shared_ptr<const LineProgram> program_;
 };
 
 }  // namespace backlight

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "backlight/base/vector.h"
@@ -24,6 +25,9 @@ struct Hit {
   int surface = -1;                                         ///< as returned by SurfaceSet::add
   int part = 0;                                             ///< which face (documented with each shape)
   bool unresolved = false;  ///< the root could not be isolated to full precision (surface/implicit.h)
+  /// Where the crossing is along the surface's own line (src/surface/local_line.h), more exactly than λ tells
+  /// from afar; not a number where it is to be found again.
+  double along = std::numeric_limits<double>::quiet_NaN();
 
   [[nodiscard]] bool found() const { return surface >= 0; }
 };
@@ -93,6 +97,16 @@ class SurfaceSet {
   /// nearest() of one surface alone: the first crossing at λ > 0, or nowhere.
   [[nodiscard]] Hit first_crossing_of(int surface, const Vec3& origin, const Vec3& direction,
                                       const RayClock& clock = {}) const;
+
+  /// The same for many rays at once: array i of `origin` and of `direction` holds their coordinates i.
+  struct Rays {
+    std::size_t count;
+    const double* origin[3];
+    const double* direction[3];
+    const double* time;
+    const double* rate;
+  };
+  void first_crossings_of(int surface, const Rays& rays, std::span<Hit> hits) const;
 
   /// A surface as the lanes have it: of kind `other` where only one ray at a time can be asked.
   [[nodiscard]] LaneSurface lane_surface(int surface) const;

@@ -1,0 +1,206 @@
+#include "backlight/expression/line_program.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "backlight/expression/enclosure.h"
+#include "line_work.h"
+#include "rounding.h"
+
+namespace backlight {
+namespace {
+
+LineKernels widest() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") != 0 && avx2_line_kernels().pieces != nullptr)
+    return avx2_line_kernels();
+#endif
+  return baseline_line_kernels();
+}
+
+const LineKernels& kernels(LineWidth width) {
+  static const std::array<LineKernels, 3> all{widest(), baseline_line_kernels(), avx2_line_kernels()};
+  return all[static_cast<std::size_t>(width)];
+}
+
+std::size_t padded(std::size_t count) {
+  return (count + LineBatch::padding - 1) / LineBatch::padding * LineBatch::padding;
+}
+
+/// The spare lines at the end do what the last one does.
+void fill_up(LineBatch& lines, std::size_t count) {
+  for (std::size_t i = count; i < padded(count); ++i) {
+    for (std::size_t v = 0; v < LineBatch::most_variables; ++v) {
+      lines.origin(v)[i] = lines.origin(v)[count - 1];
+      lines.direction(v)[i] = lines.direction(v)[count - 1];
+    }
+    lines.from()[i] = lines.from()[count - 1];
+    lines.to()[i] = lines.to()[count - 1];
+  }
+}
+
+enum class Question { piece, point };
+
+/// Runs the kernels of one question on lines first ... first + count - 1, a multiple of the padding.
+class Run {
+ public:
+  Run(const LineProgram& program, LineBatch& lines, std::vector<double>& workspace)
+      : program_(program), kernels_(kernels(program.width())), lines_(lines), workspace_(workspace) {}
+
+  /// False: some line was in trouble, and nothing found is to be trusted.
+  [[gnu::noinline]] bool bounds(Question question, std::size_t first, std::size_t count) {
+    const LineWork work = work_on(first, count, question == Question::point);
+    const RoundUp mode;
+    (question == Question::piece ? kernels_.pieces : kernels_.points)(work);
+    return !mode.failed();
+  }
+
+  void numbers(std::size_t count) { kernels_.numbers(work_on(0, count, true)); }
+
+  [[nodiscard]] const double* result(std::size_t component, std::size_t count) const {
+    return workspace_.data() + component * count;
+  }
+
+ private:
+  LineWork work_on(std::size_t first, std::size_t count, bool at_point) {
+    LineWork work;
+    work.steps = program_.steps().data();
+    work.step_count = program_.steps().size();
+    work.constants = program_.tape().constants.data();
+    for (std::size_t v = 0; v < LineBatch::most_variables; ++v) {
+      work.origin[v] = lines_.origin(v) + first;
+      work.direction[v] = lines_.direction(v) + first;
+    }
+    work.from = lines_.from() + first;
+    work.to = (at_point ? lines_.from() : lines_.to()) + first;
+    if (workspace_.size() < program_.workspace(count)) workspace_.resize(program_.workspace(count));
+    work.registers = workspace_.data();
+    work.stride = count;
+    return work;
+  }
+
+  const LineProgram& program_;
+  const LineKernels& kernels_;
+  LineBatch& lines_;
+  std::vector<double>& workspace_;
+};
+
+/// One line by the arithmetic with all special cases.
+void enclose_carefully(const LineProgram& program, LineBatch& lines, std::size_t i, Question question) {
+  std::array<double, LineBatch::most_variables> origin{};
+  std::array<double, LineBatch::most_variables> direction{};
+  for (std::size_t v = 0; v < LineBatch::most_variables; ++v) {
+    origin[v] = lines.origin(v)[i];
+    direction[v] = lines.direction(v)[i];
+  }
+  const VariableLine line{origin, direction};
+  if (question == Question::point) {
+    const Interval value = enclose(program.tape(), line, lines.from()[i]);
+    lines.lower()[i] = value.lower;
+    lines.upper()[i] = value.upper;
+    lines.continuity()[i] = static_cast<double>(value.continuity);
+    return;
+  }
+  const IntervalSlope piece = enclose(program.tape(), line, lines.from()[i], lines.to()[i]);
+  lines.lower()[i] = piece.value.lower;
+  lines.upper()[i] = piece.value.upper;
+  lines.slope_lower()[i] = piece.slope.lower;
+  lines.slope_upper()[i] = piece.slope.upper;
+  lines.continuity()[i] = static_cast<double>(piece.value.continuity);
+}
+
+void take(const Run& run, LineBatch& lines, std::size_t first, std::size_t count, std::size_t wanted,
+          Question question) {
+  for (std::size_t i = 0; i < wanted; ++i) {
+    lines.lower()[first + i] = -run.result(0, count)[i];
+    lines.upper()[first + i] = run.result(1, count)[i];
+    lines.continuity()[first + i] = 0.0;
+    if (question == Question::piece) {
+      lines.slope_lower()[first + i] = -run.result(2, count)[i];
+      lines.slope_upper()[first + i] = run.result(3, count)[i];
+    }
+  }
+}
+
+/// Where one line of a batch is in trouble, each is asked by itself: what is found of a line never depends on
+/// the others.
+void enclose_lines(const LineProgram& program, LineBatch& lines, std::size_t count,
+                   std::vector<double>& workspace, Question question) {
+  if (count == 0) return;
+  fill_up(lines, count);
+  Run run(program, lines, workspace);
+  if (run.bounds(question, 0, padded(count))) {
+    take(run, lines, 0, padded(count), count, question);
+    return;
+  }
+  LineBatch alone(LineBatch::padding);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t v = 0; v < LineBatch::most_variables; ++v) {
+      alone.origin(v)[0] = lines.origin(v)[i];
+      alone.direction(v)[0] = lines.direction(v)[i];
+    }
+    alone.from()[0] = lines.from()[i];
+    alone.to()[0] = lines.to()[i];
+    fill_up(alone, 1);
+    Run single(program, alone, workspace);
+    if (!single.bounds(question, 0, LineBatch::padding)) {
+      enclose_carefully(program, lines, i, question);
+      continue;
+    }
+    take(single, alone, 0, LineBatch::padding, 1, question);
+    for (auto array : {&LineBatch::lower, &LineBatch::upper, &LineBatch::slope_lower, &LineBatch::slope_upper,
+                       &LineBatch::continuity}) {
+      (lines.*array)()[i] = (alone.*array)()[0];
+    }
+  }
+}
+
+}  // namespace
+
+LineBatch::LineBatch(std::size_t capacity) : capacity_(padded(capacity)), numbers_(15 * capacity_, 0.0) {}
+
+LineProgram::LineProgram(const Tape& tape, LineWidth width) : tape_(tape), width_(width) {
+  std::vector<bool> changes(tape.registers, false);
+  steps_.reserve(tape.instructions.size());
+  for (const Instruction& step : tape.instructions) {
+    LineProgram::Step line{step.operation, false, false, step.out, step.a, step.b};
+    if (step.operation == Operation::variable) {
+      if (step.a >= LineBatch::most_variables) throw std::invalid_argument("LineProgram: too many variables");
+      changes[step.out] = true;
+    } else if (step.operation == Operation::constant) {
+      changes[step.out] = false;
+    } else {
+      line.slope_a = changes[step.a];
+      line.slope_b = info(step.operation).operands == 2 && changes[step.b];
+      changes[step.out] = line.slope_a || line.slope_b;
+    }
+    steps_.push_back(line);
+  }
+}
+
+std::size_t LineProgram::workspace(std::size_t count) const {
+  return tape_.registers * 4 * padded(count);
+}
+
+void LineProgram::enclose_pieces(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const {
+  enclose_lines(*this, lines, count, workspace, Question::piece);
+}
+
+void LineProgram::enclose_points(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const {
+  enclose_lines(*this, lines, count, workspace, Question::point);
+}
+
+void LineProgram::numbers(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const {
+  if (count == 0) return;
+  fill_up(lines, count);
+  Run run(*this, lines, workspace);
+  run.numbers(padded(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    lines.value()[i] = run.result(0, padded(count))[i];
+    lines.slope()[i] = run.result(1, padded(count))[i];
+  }
+}
+
+}  // namespace backlight
