@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "ray_list.h"
 #include "shading_steps.h"
 
 namespace backlight {
@@ -199,6 +200,7 @@ void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Ra
   const double end = tracer_.scene().lights[light].kind == LightKind::distant ? infinity : 1.0;
   const bool far = sheets_.one_by_one(occluder.frame) ||
                    hub.lights[light].to_frame[static_cast<std::size_t>(occluder.frame)].is_robust();
+  RayList together;
   for (int i = range.first; i < std::min(range.last, p.count); ++i) {
     if (!(p.trial[i] > 0.0)) continue;
     bool dark = false;
@@ -215,11 +217,15 @@ void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Ra
     } else if (occluder.surface < 0) {
       dark = surfaces.blocked(vec(p.trial_start, i), vec(p.trial_direction, i), 0.0, end, clock);
     } else {
-      dark = surfaces
-                 .first_crossing_of(occluder.surface, vec(p.trial_start, i), vec(p.trial_direction, i), clock)
-                 .lambda < end;
+      together.add(i, vec(p.trial_start, i), vec(p.trial_direction, i), clock);
     }
     if (dark) p.lit[i] = 0.0;
+  }
+  if (together.count() == 0) return;
+  Hit blockers[sheet_size];
+  surfaces.first_crossings_of(occluder.surface, together.rays(), blockers);
+  for (std::size_t i = 0; i < together.count(); ++i) {
+    if (blockers[i].lambda < end) p.lit[together.lane(i)] = 0.0;
   }
 }
 

@@ -18,6 +18,7 @@ struct SheetScratch {
     int place[sheet_size];        ///< index of the pixel in the tile
     int part[sheet_size];         ///< face, of surfaces that take one ray at a time
     bool unresolved[sheet_size];  ///< and whether its root was isolated
+    double along[sheet_size];     ///< Hit::along
   };
   std::span<TileSheet> sheets;          ///< those in use...
   std::vector<TileSheet> sheet_memory;  ///< ...of these, which are not cleared between tiles

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "backlight/camera/sampling.h"
+#include "ray_list.h"
 #include "sheet_shading.h"
 
 namespace backlight {
@@ -187,17 +188,23 @@ class SheetSearch {
         tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
     alignas(64) double direction[4][sheet_size];
     scene_.kernels().in_frame(frame, sheet.rays, direction);
-    const Vec3 origin{frame.origin[0], frame.origin[1], frame.origin[2]};
+    RayList rays;
     for (; inside != 0; inside &= inside - 1) {
       const int lane = __builtin_ctzll(inside);
-      const Hit hit = surfaces.first_crossing_of(occupant.surface, origin,
-                                                 {direction[0][lane], direction[1][lane], direction[2][lane]},
-                                                 {frame.time, direction[3][lane]});
-      if (!(hit.lambda < sheet.rays.lambda[lane])) continue;
-      sheet.rays.lambda[lane] = hit.lambda;
+      const auto of = static_cast<std::size_t>(lane);
+      rays.add(lane, Vec3{frame.origin[0], frame.origin[1], frame.origin[2]},
+               Vec3{direction[0][of], direction[1][of], direction[2][of]}, {frame.time, direction[3][of]});
+    }
+    Hit hits[sheet_size];
+    surfaces.first_crossings_of(occupant.surface, rays.rays(), hits);
+    for (std::size_t i = 0; i < rays.count(); ++i) {
+      const int lane = rays.lane(i);
+      if (!(hits[i].lambda < sheet.rays.lambda[lane])) continue;
+      sheet.rays.lambda[lane] = hits[i].lambda;
       sheet.rays.who[lane] = who;
-      sheet.part[lane] = hit.part;
-      sheet.unresolved[lane] = hit.unresolved;
+      sheet.part[lane] = hits[i].part;
+      sheet.unresolved[lane] = hits[i].unresolved;
+      sheet.along[lane] = hits[i].along;
     }
   }
 
@@ -330,6 +337,7 @@ class SheetPainter {
       const bool other = occupant.lanes.kind == LaneSurface::Kind::other;
       hits_[i] = {sheet.rays.lambda[lane], occupant.surface, other ? sheet.part[lane] : 0,
                   other && sheet.unresolved[lane]};
+      if (other) hits_[i].along = sheet.along[lane];
     }
     const bool lit = scene_.lit_in_lanes(occupant.frame);
     if (!lit || !shader_.shade(occupant, effects, {hits_, static_cast<std::size_t>(count)})) {
