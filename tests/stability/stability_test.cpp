@@ -278,7 +278,22 @@ TEST(Stability, PageShowsWhatWasMeasured) {
     std::ofstream(page) << text.substr(0, start) + table_text() + text.substr(to);
     return;
   }
-  EXPECT_EQ(text.substr(start, to - start), table_text());
+  // The last column depends on the last bits of the C library's functions, which differ between processors:
+  // it may be half of what is written, or twice. All the others are exact.
+  std::istringstream written(text.substr(start, to - start));
+  std::istringstream now(table_text());
+  std::string line;
+  for (std::string row; std::getline(written, row);) {
+    ASSERT_TRUE(std::getline(now, line)) << "the page has a row too many: " << row;
+    const std::size_t last = row.rfind("| ", row.size() - 3);
+    const std::size_t measured_last = line.rfind("| ", line.size() - 3);
+    EXPECT_EQ(row.substr(0, last), line.substr(0, measured_last));
+    const double stated = std::strtod(row.c_str() + last + 2, nullptr);
+    const double error = std::strtod(line.c_str() + measured_last + 2, nullptr);
+    EXPECT_LE(error, 2.0 * stated) << line;
+    EXPECT_GE(error, 0.5 * stated) << line;
+  }
+  EXPECT_FALSE(std::getline(now, line)) << "the page lacks a row: " << line;
 }
 
 }  // namespace
