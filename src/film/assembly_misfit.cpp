@@ -40,7 +40,8 @@ std::vector<std::string> attribute_names(const ExrHeader& a, const ExrHeader& b)
     for (const ExrAttribute& attribute : header->attributes) names.insert(attribute.name);
   }
   std::vector<std::string> ordered(names.begin(), names.end());
-  std::ranges::stable_partition(ordered, [&](const std::string& name) { return name != identity; });
+  std::stable_partition(ordered.begin(), ordered.end(),
+                        [&](const std::string& name) { return name != identity; });
   return ordered;
 }
 
