@@ -2,11 +2,13 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <random>
 #include <set>
 #include <thread>
@@ -62,6 +64,41 @@ class Again : public ProgramTest {
     for (int i = 0; i < 6000 && !exists(name); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_TRUE(exists(name)) << name;
+  }
+
+  // Whether a process that start() began has come to its end; finish() tells how.
+  [[nodiscard]] static bool has_ended(int process) {
+    siginfo_t info{};
+    return waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == process;
+  }
+
+  // Waits until the program catches a signal, which would end it before.
+  static void wait_until_caught(int process, int signal) {
+    while (!has_ended(process)) {
+      std::ifstream status("/proc/" + std::to_string(process) + "/status");
+      for (std::string line; std::getline(status, line);) {
+        if (!line.starts_with("SigCgt:")) continue;
+        if ((std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1U) != 0) return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  // Asks for snapshots of a.exr until one shows some pixels; nothing if the image is done before. A tile that
+  // is not about to be done begins anew after a snapshot: the pauses get longer until one is long enough.
+  [[nodiscard]] std::optional<Image> snapshot_in_the_middle(int process) const {
+    wait_until_caught(process, SIGUSR1);
+    for (int pause = 10; !has_ended(process); pause += 1 + pause / 4) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(pause));
+      kill(process, SIGUSR1);
+      auto read = read_exr(folder / "work" / "a.partial.exr");
+      if (!read.ok()) continue;
+      Image& image = read.value().image;
+      const auto alpha = image.plane(static_cast<std::size_t>(image.find_channel("A")));
+      if (std::ranges::count(alpha, 1.0F) > 0) return std::move(image);
+    }
+    return std::nullopt;
   }
 
   // How often each file was made, by the lines of --stats.
@@ -167,35 +204,34 @@ TEST_F(Again, StatisticsGoOn) {
                                 {"scene.0001.exr", 1}, {"scene.0002.exr", 1}, {"scene.0003.exr", 1}}));
 }
 
-// One image that takes a second or two, with everything that a partial image must keep.
-const Arguments slow{"scene.toml", "-r", "32x24", "-s", "2500", "--aov", "all", "-t", "2", "-q"};
+// One image that takes a moment, with everything that a partial image must keep.
+const Arguments slow{"scene.toml", "-r", "32x24", "--aov", "all", "-t", "2", "-q"};
 constexpr const char* stereo_and_motion =
     "[[object]]\nshape = \"box\"\nsize = [1, 1, 1]\nposition = [0, 1, 3]\nvelocity = [0.6, 0.2, 0]\n";
 
-// Asks for snapshots of a.exr until one shows some pixels, whatever the load of the machine.
-void stop_in_the_middle(const std::filesystem::path& work, int process, int signal) {
-  for (int i = 0; i < 600; ++i) {
-    std::this_thread::sleep_for(50ms);
-    kill(process, SIGUSR1);
-    const auto read = read_exr(work / "a.partial.exr");
-    if (!read.ok()) continue;
-    const auto alpha =
-        read.value().image.plane(static_cast<std::size_t>(read.value().image.find_channel("A")));
-    if (std::count(alpha.begin(), alpha.end(), 1.0F) > 20) break;
-  }
-  kill(process, signal);
-}
+// On a quick machine an image may be done before one can look at its middle: then one of more samples is
+// tried, up to these.
+constexpr int few_samples = 1500;
+constexpr int most_samples = 200'000;
 
 TEST_F(Again, APartialImageIsFinishedToTheSameBytes) {
   write_scene("scene.toml", stereo_and_motion);
   for (const Arguments& kind :
        std::vector<Arguments>{{}, {"--float", "-D", "camera.stereo={separation=0.1}"}}) {
-    expect_success(slow + kind + Arguments{"-o", "whole.exr"});
-    const Outcome stopped = run_and(slow + kind + Arguments{"-o", "a.exr"}, [&](int process) {
-      stop_in_the_middle(folder / "work", process, SIGTERM);
-    });
-    ASSERT_EQ(stopped.code, 128 + SIGTERM) << "the image was too quick, or did not stop: " << stopped.err;
+    Arguments job;
+    int samples = few_samples;
+    for (;; samples *= 2) {
+      ASSERT_LT(samples, most_samples) << "no image could be stopped in its middle";
+      job = slow + kind + Arguments{"-s", std::to_string(samples)};
+      const Outcome stopped = run_and(job + Arguments{"-o", "a.exr"}, [&](int process) {
+        if (snapshot_in_the_middle(process)) kill(process, SIGTERM);
+      });
+      if (stopped.code == 128 + SIGTERM) break;
+      ASSERT_EQ(stopped.code, 0) << stopped.err;
+      std::filesystem::remove(folder / "work" / "a.exr");
+    }
     ASSERT_FALSE(exists("a.exr"));
+    expect_success(job + Arguments{"-o", "whole.exr"});
     const ExrPicture partial = picture("a.partial.exr");
     EXPECT_EQ(*partial.header.find<std::int32_t>("backlight/complete"), 0);
     const std::string left = kind.empty() ? "rendered.V" : "rendered.left.V";
@@ -209,30 +245,33 @@ TEST_F(Again, APartialImageIsFinishedToTheSameBytes) {
     EXPECT_GT(done, 0);
     EXPECT_LT(done, 32 * 24);
     // The work that was done is not done again.
-    expect_success(slow + kind + Arguments{"-o", "a.exr", "--resume", "--stats", "s.json", "-t", "1"});
+    expect_success(job + Arguments{"-o", "a.exr", "--resume", "--stats", "s.json", "-t", "1"});
     EXPECT_EQ(read("a.exr"), read("whole.exr"));
     EXPECT_FALSE(exists("a.partial.exr"));
     const std::string line = read("s.json");
     const std::size_t at = line.find("\"cameraRays\":") + 13;
     const long rays = std::stol(line.substr(at));
-    EXPECT_EQ(rays % 2500, 0);
-    EXPECT_LT(rays, 32L * 24L * 2500L * (kind.empty() ? 1 : 2));
+    EXPECT_EQ(rays % samples, 0);
+    EXPECT_LT(rays, 32L * 24L * samples * (kind.empty() ? 1 : 2));
     for (const char* name : {"s.json", "a.exr"}) std::filesystem::remove(folder / "work" / name);
   }
 }
 
 TEST_F(Again, ASnapshotIsWrittenAndTheImageFinished) {
   write_scene("scene.toml", stereo_and_motion);
-  expect_success(slow + Arguments{"-o", "whole.exr"});
-  Image snapshot;
-  const Outcome outcome = run_and(slow + Arguments{"-o", "a.exr"}, [&](int process) {
-    std::this_thread::sleep_for(300ms);
-    kill(process, SIGUSR1);
-    wait_for("a.partial.exr");
-    snapshot = picture("a.partial.exr").image;
-    kill(process, SIGUSR1);
-  });
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  std::optional<Image> taken;
+  Arguments job;
+  for (int samples = few_samples; !taken; samples *= 2) {
+    ASSERT_LT(samples, most_samples) << "no image could be looked at in its middle";
+    job = slow + Arguments{"-s", std::to_string(samples)};
+    const Outcome outcome = run_and(job + Arguments{"-o", "a.exr"}, [&](int process) {
+      taken = snapshot_in_the_middle(process);
+      if (taken) kill(process, SIGUSR1);
+    });
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  const Image& snapshot = *taken;
+  expect_success(job + Arguments{"-o", "whole.exr"});
   EXPECT_EQ(read("a.exr"), read("whole.exr"));
   EXPECT_EQ(files(), (Files{"a.exr", "scene.toml", "whole.exr"}));
   // What it shows is final.
@@ -249,8 +288,12 @@ TEST_F(Again, ASnapshotIsWrittenAndTheImageFinished) {
 
 TEST_F(Again, APartialImageOfSomethingElseIsNotGoneOnWith) {
   write_scene();
-  const Outcome stopped = run_and(slow + Arguments{"-o", "a.exr", "-s", "200000"},
-                                  [&](int process) { stop_in_the_middle(folder / "work", process, SIGINT); });
+  const Outcome stopped = run_and(slow + Arguments{"-o", "a.exr", "-s", "1000000"}, [&](int process) {
+    wait_until_caught(process, SIGUSR1);
+    kill(process, SIGUSR1);
+    wait_for("a.partial.exr");
+    kill(process, SIGINT);
+  });
   ASSERT_EQ(stopped.code, 128 + SIGINT);
   const std::string partial = read("a.partial.exr");
   for (const std::string& file : {partial, partial.substr(0, partial.size() / 2)}) {
@@ -306,16 +349,19 @@ TEST_F(Sharing, EachImageIsMadeOnce) {
 }
 
 TEST_F(Sharing, TheImagesOfAKilledProcessAreTakenOver) {
-  const Arguments slower = claim + Arguments{"-s", "200"};
-  expect_success({"scene.toml", "-s", "200", "-q", "-o", "right/a.exr"});
-  const int victim = start(slower, "victim");
-  wait_for("a.0002.exr.claim");
-  const int other = start(slower, "other");
+  // It would take hours for its first image, and is killed for certain before it is done.
+  const int victim = start(claim + Arguments{"-s", "1000000"}, "victim");
+  wait_for("a.0001.exr.claim");
+  const int other = start(claim, "other");
+  wait_for("a.0012.exr");
+  EXPECT_FALSE(exists("a.0001.exr"));
   kill(victim, SIGKILL);
   EXPECT_EQ(finish(victim, "victim").code, 1000 + SIGKILL);
   const Outcome outcome = finish(other, "other");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const auto& [file, count] : made("s.json")) EXPECT_EQ(count, 1) << file;
+  const auto counts = made("s.json");
+  EXPECT_EQ(counts.size(), 12U);
+  for (const auto& [file, count] : counts) EXPECT_EQ(count, 1) << file;
   expect_all_right();
 }
 
@@ -346,28 +392,48 @@ TEST_F(Sharing, WithoutClaimsEveryImageIsWholeAllTheSame) {
   expect_all_right();
 }
 
-// scripts/soak.sh does this for as long as one likes.
+// scripts/soak.sh does this for as long as one likes. How long to wait before a kill, so that there is a
+// middle to kill in, is found by trying: longer after a process that had not begun, shorter after one that
+// was done.
 TEST_F(Sharing, KillsAtAnyMomentLoseNothing) {
   std::mt19937 random(20261124);
   const Arguments run_on = claim + Arguments{"--resume"};
   const std::set<int> signals{SIGKILL, SIGTERM, SIGHUP};
-  int kills = 0;
-  for (int i = 0; i < 12; ++i) {
+  const auto expect_each_once = [&] {
+    for (const auto& [file, count] : made("s.json")) EXPECT_EQ(count, 1) << file;
+    expect_all_right();
+  };
+  const auto begin_again = [&] {
+    for (const std::string& file : files()) {
+      if (file.starts_with("a.") || file == "s.json") std::filesystem::remove(folder / "work" / file);
+    }
+  };
+  int in_the_middle = 0;
+  unsigned longest = 100'000;  // microseconds
+  for (int i = 0; i < 100 && in_the_middle < 8; ++i) {
+    const Files before = files();
     const int process = start(run_on, "killed");
-    std::this_thread::sleep_for(std::chrono::milliseconds(5 + random() % 150));
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % longest));
     kill(process, *std::next(signals.begin(), static_cast<int>(random() % 3)));
     const int code = finish(process, "killed").code;
-    if (code == 0) break;
-    ++kills;
+    if (code == 0) {
+      expect_each_once();
+      begin_again();
+      longest = std::max(longest / 2, 1000U);
+      continue;
+    }
     EXPECT_TRUE(code == 1000 + SIGKILL || code == 128 + SIGTERM || code == 128 + SIGHUP ||
                 code == 1000 + SIGTERM || code == 1000 + SIGHUP)  // before it catches signals
         << code;
+    if (files() == before) {
+      longest = std::min(longest * 2, 10'000'000U);
+    } else {
+      ++in_the_middle;
+    }
   }
-  EXPECT_GT(kills, 3);
+  EXPECT_EQ(in_the_middle, 8);
   expect_success(run_on);
-  const auto counts = made("s.json");
-  for (const auto& [file, count] : counts) EXPECT_EQ(count, 1) << file;
-  expect_all_right();
+  expect_each_once();
 }
 
 TEST_F(Sharing, AFullDiskStopsItAndNothingIsLost) {
