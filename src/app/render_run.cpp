@@ -42,10 +42,7 @@ RenderSettings settings_for(const RenderOptions& options, const Scene& scene) {
 }
 
 void add(RenderStatistics& sum, const RenderStatistics& more) {
-  sum.rays.primary += more.rays.primary;
-  sum.rays.shadow += more.rays.shadow;
-  sum.rays.data += more.rays.data;
-  sum.rays.non_finite += more.rays.non_finite;
+  sum.rays += more.rays;
   sum.seconds += more.seconds;
   sum.threads = more.threads;
 }
@@ -102,21 +99,31 @@ RenderRun::RenderRun(const RenderOptions& options, SceneSession& session, const 
 
 int RenderRun::run(Scene first) {
   first_ = std::move(first);
-  bool all_made = true;
   std::vector<const PlannedImage*> waiting;
+  Outcome outcome = take_all(waiting);
+  if (outcome == Outcome::made || outcome == Outcome::failed) {
+    const Outcome others = wait_for_others(std::move(waiting));
+    if (others != Outcome::made) outcome = others;
+  }
+  deliveries_.wait();
+  if (outcome == Outcome::stopped) return exit_stopped + stop_signal();
+  if (outcome == Outcome::file_trouble || deliveries_.has_failed()) return exit_file_trouble;
+  return outcome == Outcome::made ? exit_success : exit_frame_failed;
+}
+
+// `waiting` are those that other processes work on. `failed`: not all of the others could be made.
+RenderRun::Outcome RenderRun::take_all(std::vector<const PlannedImage*>& waiting) {
+  bool all_made = true;
   for (const PlannedImage& image : images_) {
+    if (deliveries_.has_failed()) return Outcome::file_trouble;
     const bool stopped_before = stop_requested();
     const Outcome outcome = stopped_before ? Outcome::stopped : take(image);
     first_.reset();
-    if (outcome == Outcome::stopped) return exit_stopped + stop_signal();
-    if (outcome == Outcome::file_trouble) return exit_file_trouble;
+    if (outcome == Outcome::stopped || outcome == Outcome::file_trouble) return outcome;
     if (outcome == Outcome::claimed_by_another) waiting.push_back(&image);
     if (outcome == Outcome::failed) all_made = false;
   }
-  const Outcome others = wait_for_others(std::move(waiting));
-  if (others == Outcome::stopped) return exit_stopped + stop_signal();
-  if (others == Outcome::file_trouble) return exit_file_trouble;
-  return all_made && others == Outcome::made ? exit_success : exit_frame_failed;
+  return all_made ? Outcome::made : Outcome::failed;
 }
 
 // What another process does not finish falls to this one: at the end every image is there, whoever made it.
@@ -154,11 +161,11 @@ RenderRun::Outcome RenderRun::take(const PlannedImage& image) {
   if (!options_.claim) return make_or_explain(image, nullptr);
   auto attempt = Claim::attempt(claim_path(image), options_.claim_expiry);
   if (!attempt.ok()) return trouble(attempt.error());
-  const std::unique_ptr<Claim> claim = std::move(attempt.value().claim);
+  std::unique_ptr<Claim> claim = std::move(attempt.value().claim);
   if (!claim) return Outcome::claimed_by_another;
   // It may have been finished by another between the look at it and the claim.
   if (recogniser_.is_complete(image)) return skip(image, "is complete");
-  return make_or_explain(image, claim.get());
+  return make_or_explain(image, std::move(claim));
 }
 
 // The partial image of a finished one, but not of another that has the same name.
@@ -191,14 +198,14 @@ RenderRun::Outcome RenderRun::trouble(const std::string& what) {
   return Outcome::file_trouble;
 }
 
-RenderRun::Outcome RenderRun::make_or_explain(const PlannedImage& image, const Claim* claim) {
+RenderRun::Outcome RenderRun::make_or_explain(const PlannedImage& image, std::unique_ptr<Claim> claim) {
   std::optional<Scene> scene = std::exchange(first_, std::nullopt);
   if (!scene) scene = session_.compile(image.request);
   if (!scene) return Outcome::failed;
   std::string what;
   std::optional<PixelBox> crop = options_.crop;
   try {
-    return make(*scene, image, claim);
+    return make(*scene, image, std::move(claim));
   } catch (const std::bad_alloc&) {
     const FilmSettings& film = scene->film;
     what = "not enough memory for an image of " + std::to_string(film.width) + "x" +
@@ -214,7 +221,8 @@ RenderRun::Outcome RenderRun::make_or_explain(const PlannedImage& image, const C
   return Outcome::failed;
 }
 
-RenderRun::Outcome RenderRun::make(const Scene& scene, const PlannedImage& image, const Claim* claim) {
+RenderRun::Outcome RenderRun::make(const Scene& scene, const PlannedImage& image,
+                                   std::unique_ptr<Claim> claim) {
   const RenderSettings settings = settings_for(options_, scene);
   const auto creation_time = source_date_epoch();
   if (!creation_time.ok()) return trouble(creation_time.error());
@@ -237,7 +245,8 @@ RenderRun::Outcome RenderRun::make(const Scene& scene, const PlannedImage& image
                   ": another process took the claim over, which had expired; it will write the image");
     return Outcome::claimed_by_another;
   }
-  return finish(scene, settings, image, partial, statistics, header);
+  return deliver(scene, settings,
+                 {&image, std::move(partial), header, std::move(claim), statistics, {}, {}, {}});
 }
 
 void RenderRun::resume(const PlannedImage& image, PartialImage& partial) {
@@ -273,23 +282,41 @@ RenderRun::Outcome RenderRun::stop(const PlannedImage& image, const PartialImage
   return Outcome::stopped;
 }
 
-RenderRun::Outcome RenderRun::finish(const Scene& scene, const RenderSettings& settings,
-                                     const PlannedImage& image, const PartialImage& partial,
-                                     RenderStatistics statistics, const ExrHeader& header) {
+RenderRun::Outcome RenderRun::deliver(const Scene& scene, const RenderSettings& settings, Delivery traced) {
+  const auto delivery = std::make_shared<Delivery>(std::move(traced));
+  const Image& image = delivery->partial.image;
+  const std::filesystem::path& file = delivery->image->exr;
+  delivery->faults = faults_of(image);
+  delivery->record = statistics_json(scene, settings, delivery->statistics, delivery->faults, file);
+  delivery->details = details(scene, settings, delivery->statistics);
+  const std::size_t bytes = image.channel_count() * image.plane(0).size_bytes();
+  deliveries_.add(
+      bytes, [this, delivery] { return store(*delivery); },
+      [this, delivery](const Result<void>& stored) { return conclude(*delivery, stored); });
+  if (delivery->image == &images_.back()) deliveries_.wait();  // the end that progress tells is the end
+  progress_.end_image();
+  return deliveries_.has_failed() ? Outcome::file_trouble : Outcome::made;
+}
+
+Result<void> RenderRun::store(const Delivery& delivery) const {
+  const PlannedImage& image = *delivery.image;
   std::error_code ignored;
   // The PNG of an earlier image must not stand beside this one, should the process end between the two.
   if (!image.png.empty()) std::filesystem::remove(image.png, ignored);
-  Result<void> written = write_exr(image.exr, partial.image, header, options_.storage);
-  if (written.ok()) written = complete_png(image);
-  const ImageFaults faults = faults_of(partial.image);
-  if (written.ok()) {
-    written = statistics_.write(statistics_json(scene, settings, statistics, faults, image.exr));
+  const auto written = write_exr(image.exr, delivery.partial.image, delivery.header, options_.storage);
+  return written.ok() ? complete_png(image) : written;
+}
+
+Result<void> RenderRun::conclude(Delivery& delivery, const Result<void>& stored) {
+  const Result<void> done = stored.ok() ? statistics_.write(delivery.record) : stored;
+  if (done.ok()) {
+    remove_superseded(*delivery.image);
+    tell(delivery);
+  } else {
+    trouble(done.error());
   }
-  if (!written.ok()) return trouble(written.error());
-  remove_superseded(image);
-  progress_.end_image();
-  tell(scene, settings, image, statistics, faults);
-  return Outcome::made;
+  delivery.claim.reset();
+  return done;
 }
 
 // The PNG is made from the file, so that it can be made later too, with the same bytes.
@@ -303,8 +330,10 @@ Result<void> RenderRun::complete_png(const PlannedImage& image) const {
   return write_png(image.png, displayed.value().pixels);
 }
 
-void RenderRun::tell(const Scene& scene, const RenderSettings& settings, const PlannedImage& planned,
-                     const RenderStatistics& statistics, const ImageFaults& faults) {
+void RenderRun::tell(const Delivery& delivery) {
+  const PlannedImage& planned = *delivery.image;
+  const RenderStatistics& statistics = delivery.statistics;
+  const ImageFaults& faults = delivery.faults;
   const std::string file = planned.exr.string();
   if (faults.first_non_finite) {
     const auto [x, y] = *faults.first_non_finite;
@@ -320,14 +349,13 @@ void RenderRun::tell(const Scene& scene, const RenderSettings& settings, const P
   }
   if (options_.verbosity == Verbosity::quiet) return;
   if (progress_.style() == ProgressStyle::json) {
-    progress_.say(R"({"event":"image",)" +
-                  statistics_json(scene, settings, statistics, faults, planned.exr).substr(1));
+    progress_.say(R"({"event":"image",)" + delivery.record.substr(1));
     return;
   }
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f s", statistics.seconds);
   progress_.say(file + "  " + seconds);
-  if (options_.verbosity == Verbosity::verbose) progress_.say(details(scene, settings, statistics));
+  if (options_.verbosity == Verbosity::verbose) progress_.say(delivery.details);
 }
 
 }  // namespace backlight

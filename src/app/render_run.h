@@ -11,6 +11,7 @@
 #include "backlight/render/image_header.h"
 #include "backlight/render/progress.h"
 #include "backlight/render/render.h"
+#include "delivery_queue.h"
 #include "render_plan.h"
 #include "scene_session.h"
 #include "statistics.h"
@@ -50,13 +51,28 @@ class RenderRun {
  private:
   enum class Outcome { made, skipped, claimed_by_another, failed, file_trouble, stopped };
 
+  /// A traced image, with what there is to say of it.
+  struct Delivery {
+    const PlannedImage* image = nullptr;
+    PartialImage partial;
+    ExrHeader header;
+    std::unique_ptr<Claim> claim;  ///< null: without
+    RenderStatistics statistics;
+    ImageFaults faults;
+    std::string record;   ///< the object of --stats
+    std::string details;  ///< for --verbose
+  };
+
+  Outcome take_all(std::vector<const PlannedImage*>& waiting);
   Outcome take(const PlannedImage& image);
   Outcome wait_for_others(std::vector<const PlannedImage*> waiting);
-  Outcome make_or_explain(const PlannedImage& image, const Claim* claim);
-  Outcome make(const Scene& scene, const PlannedImage& image, const Claim* claim);
+  Outcome make_or_explain(const PlannedImage& image, std::unique_ptr<Claim> claim);
+  Outcome make(const Scene& scene, const PlannedImage& image, std::unique_ptr<Claim> claim);
   Outcome stop(const PlannedImage& image, const PartialImage& partial, const ExrHeader& header);
-  Outcome finish(const Scene& scene, const RenderSettings& settings, const PlannedImage& image,
-                 const PartialImage& partial, RenderStatistics statistics, const ExrHeader& header);
+  /// Sends the image on its way; store() and conclude() follow on a thread of their own.
+  Outcome deliver(const Scene& scene, const RenderSettings& settings, Delivery traced);
+  [[nodiscard]] Result<void> store(const Delivery& delivery) const;
+  Result<void> conclude(Delivery& delivery, const Result<void>& stored);
   Outcome skip(const PlannedImage& image, const std::string& why);
   Outcome trouble(const std::string& what);
 
@@ -64,8 +80,7 @@ class RenderRun {
   void remove_superseded(const PlannedImage& image) const;
   void resume(const PlannedImage& image, PartialImage& partial);
   void snapshot(const PlannedImage& image, const PartialImage& partial, const ExrHeader& header);
-  void tell(const Scene& scene, const RenderSettings& settings, const PlannedImage& planned,
-            const RenderStatistics& statistics, const ImageFaults& faults);
+  void tell(const Delivery& delivery);
 
   const RenderOptions& options_;
   SceneSession& session_;
@@ -74,6 +89,7 @@ class RenderRun {
   StatisticsFile statistics_;
   ProgressReporter progress_;
   std::optional<Scene> first_;
+  DeliveryQueue deliveries_;  // last: what is on its way uses the others
 };
 
 }  // namespace backlight

@@ -18,22 +18,36 @@
 namespace backlight {
 namespace {
 
-/// OpenEXR writes through this. A failure must leave as an exception; the file keeps the reason.
+/// OpenEXR writes through this, a few bytes at a time: they are collected. A failure must leave as an
+/// exception; the file keeps the reason.
 class CheckedStream : public Imf::OStream {
  public:
   explicit CheckedStream(AtomicFile& file) : Imf::OStream(file.path().c_str()), file_(file) {}
 
   void write(const char bytes[], int count) override {
-    const auto written = file_.write(std::string_view(bytes, static_cast<std::size_t>(count)));
+    collected_.append(bytes, static_cast<std::size_t>(count));
+    if (collected_.size() >= enough) flush();
+  }
+  std::uint64_t tellp() override { return file_.position() + collected_.size(); }
+  void seekp(std::uint64_t position) override {
+    if (position == tellp()) return;
+    flush();
+    file_.seek(position);
+  }
+
+  void flush() {
+    const auto written = file_.write(collected_);
+    collected_.clear();
     if (!written.ok()) {
       throw std::runtime_error(written.error());
     }
   }
-  std::uint64_t tellp() override { return file_.position(); }
-  void seekp(std::uint64_t position) override { file_.seek(position); }
 
  private:
+  static constexpr std::size_t enough = std::size_t{1} << 20U;
+
   AtomicFile& file_;
+  std::string collected_;
 };
 
 /// What is wrong with the layout, or nothing.
@@ -98,6 +112,10 @@ class ExrWriter::Implementation {
       return Failure{error_};
     }
     output_.reset();  // writes the table of chunks and swallows what goes wrong: the file has kept it
+    try {
+      stream_.flush();
+    } catch (const std::exception&) {  // this too
+    }
     return file_.commit();
   }
 

@@ -223,14 +223,7 @@ std::vector<ViewRenderer> views_of(const Tracer& tracer, const SheetTracer* shee
 
 RenderStatistics summed(const std::vector<ThreadMemory>& memories) {
   RenderStatistics statistics;
-  for (const ThreadMemory& memory : memories) {
-    const RayCounts& rays = memory.scratch.counts;
-    statistics.rays.primary += rays.primary;
-    statistics.rays.shadow += rays.shadow;
-    statistics.rays.data += rays.data;
-    statistics.rays.non_finite += rays.non_finite;
-    statistics.rays.unresolved += rays.unresolved;
-  }
+  for (const ThreadMemory& memory : memories) statistics.rays += memory.scratch.counts;
   return statistics;
 }
 

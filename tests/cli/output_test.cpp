@@ -1,4 +1,5 @@
 // Which files a render writes, and what is in them.
+#include <algorithm>
 #include <fstream>
 
 #include "backlight/film/exr.h"
@@ -190,6 +191,28 @@ TEST_F(Output, StatisticsAreOneObjectAnImage) {
     EXPECT_EQ(line.back(), '}');
   }
   EXPECT_EQ(lines, 3);
+}
+
+TEST_F(Output, TellsOfUnresolvedRoots) {
+  // Everywhere a root of multiplicity two.
+  write("scene.toml",
+        "[film]\nresolution = [16, 16]\n[camera]\nposition = [0, 0, -5]\nlook_at = [0, 0, 0]\n"
+        "[[object]]\nshape = \"implicit\"\nf = \"(x^2 + y^2 + z^2 - 1)^2\"\n"
+        "bounds = [[-1.5, -1.5, -1.5], [1.5, 1.5, 1.5]]\n");
+  const Outcome outcome = run({"scene.toml", "--stats", "stats.json", "--aov", "unresolved"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto picture = read_exr(folder / "work" / "scene.exr");
+  ASSERT_TRUE(picture.ok()) << picture.error();
+  const Image& image = picture.value().image;
+  const auto channel = image.find_channel("unresolved.V");
+  ASSERT_GE(channel, 0);
+  const auto shown = std::ranges::count(image.plane(static_cast<std::size_t>(channel)), 1.0F);
+  EXPECT_GT(shown, 10);
+  EXPECT_NE(read("stats.json").find("\"unresolvedHits\":" + std::to_string(shown) + "}"), std::string::npos)
+      << read("stats.json");
+  EXPECT_NE(outcome.err.find(std::to_string(shown) + " of 256 camera rays meet a surface where its root"),
+            std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(Output, ProgressIsOnStandardErrorAlone) {

@@ -36,8 +36,8 @@ std::string progress_line(const ProgressState& state);
 /// {"event":"progress","fraction":0.45,"image":3,"images":10,"file":"shot.0003.exr","elapsed":12.1,"remaining":14.8}
 std::string progress_json(const ProgressState& state);
 
-/// Tells how a run goes, from a thread of its own. The counting members may be called from any thread and
-/// take no lock; the others belong to the thread that drives the run.
+/// Tells how a run goes, from a thread of its own. `advance` and `say` may be called from any thread,
+/// and the former takes no lock; the others belong to the thread that drives the run.
 class ProgressReporter {
  public:
   struct Settings {

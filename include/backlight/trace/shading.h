@@ -17,6 +17,15 @@ struct RayCounts {
   std::uint64_t non_finite = 0;  ///< pixels with a NaN or an infinity
   /// Camera rays that see a root which could not be isolated to full precision (surface/implicit.h).
   std::uint64_t unresolved = 0;
+
+  RayCounts& operator+=(const RayCounts& more) {
+    primary += more.primary;
+    shadow += more.shadow;
+    data += more.data;
+    non_finite += more.non_finite;
+    unresolved += more.unresolved;
+    return *this;
+  }
 };
 
 /// Working memory of one thread.
