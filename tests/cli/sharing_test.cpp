@@ -1,0 +1,163 @@
+// Several processes in one folder, and processes that are killed.
+#include "again.h"
+
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <set>
+#include <thread>
+
+namespace backlight::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* moving =
+    "[animation]\nfps = 10\nframes = [1, 12]\n"
+    "[[object]]\nshape = \"box\"\nsize = [1, 1, 1]\nposition = [0, 1, \"3 + t\"]\nvelocity = [0.5, 0, 0]\n";
+
+class Sharing : public Again {
+ protected:
+  void SetUp() override {
+    Again::SetUp();
+    write_scene("scene.toml", moving);
+    expect_success(job + Arguments{"-o", "right/a.exr"});
+  }
+
+  void expect_all_right() const {
+    for (int frame = 1; frame <= 12; ++frame) {
+      const std::string number = (frame < 10 ? "000" : "00") + std::to_string(frame);
+      EXPECT_EQ(read("a." + number + ".exr"), read("right/a." + number + ".exr")) << frame;
+    }
+    for (const std::string& file : files()) {
+      EXPECT_TRUE(file.ends_with(".exr") || file == "scene.toml" || file == "s.json") << file;
+    }
+  }
+
+  const Arguments job{"scene.toml", "-s", "60", "-t", "1", "-q"};
+  const Arguments claim = job + Arguments{"-o", "a.exr", "--claim", "--stats", "s.json"};
+};
+
+TEST_F(Sharing, EachImageIsMadeOnce) {
+  std::vector<int> processes;
+  for (int i = 0; i < 3; ++i) processes.push_back(start(claim, std::to_string(i)));
+  for (int i = 0; i < 3; ++i) {
+    const Outcome outcome = finish(processes[static_cast<std::size_t>(i)], std::to_string(i));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  const auto counts = made("s.json");
+  EXPECT_EQ(counts.size(), 12U);
+  for (const auto& [file, count] : counts) EXPECT_EQ(count, 1) << file;
+  expect_all_right();
+}
+
+TEST_F(Sharing, TheImagesOfAKilledProcessAreTakenOver) {
+  // It would take hours for its first image, and is killed for certain before it is done.
+  const int victim = start(claim + Arguments{"-s", "1000000"}, "victim");
+  wait_for("a.0001.exr.claim");
+  const int other = start(claim, "other");
+  wait_for("a.0012.exr");
+  EXPECT_FALSE(exists("a.0001.exr"));
+  kill(victim, SIGKILL);
+  EXPECT_EQ(finish(victim, "victim").code, 1000 + SIGKILL);
+  const Outcome outcome = finish(other, "other");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto counts = made("s.json");
+  EXPECT_EQ(counts.size(), 12U);
+  for (const auto& [file, count] : counts) EXPECT_EQ(count, 1) << file;
+  expect_all_right();
+}
+
+TEST_F(Sharing, AClaimOfAnotherMachineHoldsUntilItExpires) {
+  const std::string theirs = "backlight claim\nhost far\nprocess 1\nsince x\nspace y\nstart 5\nnumber 0\n";
+  write("a.0003.exr.claim", theirs);
+  const int process = start(claim, "waiting");
+  wait_for("a.0012.exr");
+  std::this_thread::sleep_for(300ms);
+  EXPECT_FALSE(exists("a.0003.exr"));
+  kill(process, SIGTERM);
+  const Outcome stopped = finish(process, "waiting");
+  EXPECT_EQ(stopped.code, 128 + SIGTERM) << stopped.err;
+  EXPECT_EQ(read("a.0003.exr.claim"), theirs);
+
+  std::this_thread::sleep_for(2100ms);
+  expect_success(claim + Arguments{"--claim-expires", "1"});
+  for (const auto& [file, count] : made("s.json")) EXPECT_EQ(count, 1) << file;
+  expect_all_right();
+}
+
+TEST_F(Sharing, WithoutClaimsEveryImageIsWholeAllTheSame) {
+  const Arguments alone = job + Arguments{"-o", "a.exr", "--skip-existing"};
+  const int one = start(alone, "one");
+  const int two = start(alone, "two");
+  EXPECT_EQ(finish(one, "one").code, 0);
+  EXPECT_EQ(finish(two, "two").code, 0);
+  expect_all_right();
+}
+
+// scripts/soak.sh does this for as long as one likes. How long to wait before a kill, so that there is a
+// middle to kill in, is found by trying: longer after a process that had not begun, shorter after one that
+// was done.
+TEST_F(Sharing, KillsAtAnyMomentLoseNothing) {
+  std::mt19937 random(20261124);
+  const Arguments run_on = claim + Arguments{"--resume"};
+  const std::set<int> signals{SIGKILL, SIGTERM, SIGHUP};
+  const auto expect_each_once = [&] {
+    for (const auto& [file, count] : made("s.json")) EXPECT_EQ(count, 1) << file;
+    expect_all_right();
+  };
+  const auto begin_again = [&] {
+    for (const std::string& file : files()) {
+      if (file.starts_with("a.") || file == "s.json") std::filesystem::remove(folder / "work" / file);
+    }
+  };
+  int in_the_middle = 0;
+  unsigned longest = 100'000;  // microseconds
+  for (int i = 0; i < 100 && in_the_middle < 8; ++i) {
+    const Files before = files();
+    const int process = start(run_on, "killed");
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % longest));
+    kill(process, *std::next(signals.begin(), static_cast<int>(random() % 3)));
+    const int code = finish(process, "killed").code;
+    if (code == 0) {
+      expect_each_once();
+      begin_again();
+      longest = std::max(longest / 2, 1000U);
+      continue;
+    }
+    EXPECT_TRUE(code == 1000 + SIGKILL || code == 128 + SIGTERM || code == 128 + SIGHUP ||
+                code == 1000 + SIGTERM || code == 1000 + SIGHUP)  // before it catches signals
+        << code;
+    if (files() == before) {
+      longest = std::min(longest * 2, 10'000'000U);
+    } else {
+      ++in_the_middle;
+    }
+  }
+  EXPECT_EQ(in_the_middle, 8);
+  expect_success(run_on);
+  expect_each_once();
+}
+
+TEST_F(Sharing, AFullDiskStopsItAndNothingIsLost) {
+  in_child = [] {
+    const rlimit limit{3000, 3000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  };
+  const Arguments big = claim + Arguments{"--float", "--aov", "all"};
+  const Outcome full = run(big);
+  in_child = nullptr;
+  EXPECT_EQ(full.code, 4);
+  EXPECT_NE(full.err.find("a.0001.exr"), std::string::npos) << full.err;
+  EXPECT_FALSE(exists("a.0001.exr"));
+  EXPECT_FALSE(exists("a.0001.exr.claim"));
+  expect_success(job + Arguments{"--float", "--aov", "all", "-o", "right/a.exr"});
+  expect_success(big);
+  expect_all_right();
+}
+
+}  // namespace
+}  // namespace backlight::test
