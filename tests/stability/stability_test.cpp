@@ -7,25 +7,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "backlight/surface/implicit_surface.h"
 #include "backlight/surface/solid.h"
 #include "backlight/surface/surface_set.h"
+#include "table.h"
 
-namespace backlight {
+namespace backlight::test {
 namespace {
 
 __extension__ typedef __float128 Quad;
 
 const std::string folder = std::string(BACKLIGHT_SOURCE_DIR) + "/tests/stability/";
-const std::string page = std::string(BACKLIGHT_SOURCE_DIR) + "/docs/stability.md";
 
 struct Ray {
   std::string suite, surface;
@@ -158,18 +155,6 @@ std::vector<std::pair<std::string, Shape>> methods_for(const std::string& surfac
   return all;
 }
 
-struct Count {
-  int rays = 0, hits = 0, missed = 0, invented = 0, unresolved = 0, within_rounding = 0;
-  double worst = 0.0;  // of resolved hits: off the true point, times the cosine of incidence, of the size
-};
-
-std::string rounded_up(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0e", value);
-  if (std::strtod(text, nullptr) < value) std::snprintf(text, sizeof text, "%.0e", value * 1.5);
-  return text;
-}
-
 // What double precision cannot decide: the surface moved by some rounding errors of its coordinates, or (for
 // a formula) of the terms of its formula, gives the other answer.
 constexpr double undecided = 1e-13;
@@ -209,11 +194,9 @@ void judge(const Ray& ray, const SurfaceSet& set, Count& count) {
   if (!hit.unresolved && !close) count.worst = std::max(count.worst, across / size);
 }
 
-using Table = std::map<std::string, Count>;
-
 const Table& measured() {
   static const Table table = [] {
-    Table result;
+    std::map<std::string, Count> result;
     std::map<std::string, std::vector<std::pair<std::string, SurfaceSet>>> sets;
     for (const Ray& ray : all_rays()) {
       auto [there, added] = sets.try_emplace(ray.surface);
@@ -229,23 +212,9 @@ const Table& measured() {
         judge(ray, set, result[ray.suite + " | " + ray.surface + " | " + method]);
       }
     }
-    return result;
+    return Table(result.begin(), result.end());
   }();
   return table;
-}
-
-std::string table_text() {
-  std::string text =
-      "| suite | surface | method | rays | hits | missed | false | unresolved | within rounding | worst "
-      "error |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
-  for (const auto& [name, c] : measured()) {
-    text += "| " + name + " | " + std::to_string(c.rays) + " | " + std::to_string(c.hits) + " | " +
-            std::to_string(c.missed) + " | " + std::to_string(c.invented) + " | " +
-            std::to_string(c.unresolved) + " | " + std::to_string(c.within_rounding) + " | " +
-            rounded_up(c.worst) + " |\n";
-  }
-  return text;
 }
 
 TEST(Stability, NoRootIsMissedAndNoneInvented) {
@@ -263,38 +232,8 @@ TEST(Stability, ResolvedHitsAreOnTheSurface) {
 }
 
 TEST(Stability, PageShowsWhatWasMeasured) {
-  std::ifstream file(page);
-  std::stringstream content;
-  content << file.rdbuf();
-  const std::string text = content.str();
-  const std::string begin = "<!-- table -->\n";
-  const std::string end = "<!-- end of table -->\n";
-  const std::size_t from = text.find(begin);
-  const std::size_t to = text.find(end);
-  ASSERT_NE(from, std::string::npos);
-  ASSERT_NE(to, std::string::npos);
-  const std::size_t start = from + begin.size();
-  if (std::getenv("BACKLIGHT_UPDATE_STABILITY") != nullptr) {
-    std::ofstream(page) << text.substr(0, start) + table_text() + text.substr(to);
-    return;
-  }
-  // The last column depends on the last bits of the C library's functions, which differ between processors:
-  // it may be half of what is written, or twice. All the others are exact.
-  std::istringstream written(text.substr(start, to - start));
-  std::istringstream now(table_text());
-  std::string line;
-  for (std::string row; std::getline(written, row);) {
-    ASSERT_TRUE(std::getline(now, line)) << "the page has a row too many: " << row;
-    const std::size_t last = row.rfind("| ", row.size() - 3);
-    const std::size_t measured_last = line.rfind("| ", line.size() - 3);
-    EXPECT_EQ(row.substr(0, last), line.substr(0, measured_last));
-    const double stated = std::strtod(row.c_str() + last + 2, nullptr);
-    const double error = std::strtod(line.c_str() + measured_last + 2, nullptr);
-    EXPECT_LE(error, 2.0 * stated) << line;
-    EXPECT_GE(error, 0.5 * stated) << line;
-  }
-  EXPECT_FALSE(std::getline(now, line)) << "the page lacks a row: " << line;
+  expect_on_page("table", "suite | surface | method", measured());
 }
 
 }  // namespace
-}  // namespace backlight
+}  // namespace backlight::test
