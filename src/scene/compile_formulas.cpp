@@ -151,7 +151,7 @@ std::optional<Shape> compile_implicit(Compilation& c, const TableView& table) {
     const auto bounds = written_bounds(table);
     return bounds ? finished(c, table, "f", surface, bounds) : std::nullopt;
   }
-  const auto bounds = prove_bounds(*surface);
+  const auto bounds = c.cache.bounds(*surface);
   return finished(c, table, "f", surface, bounds);
 }
 
@@ -214,7 +214,7 @@ std::optional<Shape> compile_blend(Compilation& c, const TableView& table,
     bounds = written_bounds(table);
     if (!bounds) return std::nullopt;
   } else {
-    bounds = prove_bounds(*surface);
+    bounds = c.cache.bounds(*surface);
     if (!bounds) bounds = together(parts);
   }
   return finished(c, table, "shape", surface, bounds, origins);

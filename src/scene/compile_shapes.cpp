@@ -57,6 +57,7 @@ class ShapeReader {
       if (!shape) return std::nullopt;
       return CompiledShape{*std::move(shape), members_};
     }
+    if (has_keys_of_blends(table)) return std::nullopt;
     SolidTree tree;
     tree.operation = *operation;
     if (!parts(table, material, 1, tree)) return std::nullopt;
@@ -112,6 +113,7 @@ class ShapeReader {
     }
     const auto operation = operation_of(table.text("shape"));
     if (operation && !is_blend(table)) {
+      if (has_keys_of_blends(table)) return std::nullopt;
       tree.operation = *operation;
       if (!parts(table, material, depth + 1, tree)) return std::nullopt;
     } else {
@@ -129,6 +131,19 @@ class ShapeReader {
 
   static bool is_blend(const TableView& table) {
     return table.text("shape") == "union" && table.has_valid("blend");
+  }
+
+  // What would be read and do nothing is an error.
+  static bool has_keys_of_blends(const TableView& table) {
+    if (table.text("shape") != "union" || table.has("blend")) return false;
+    bool any = false;
+    for (const std::string_view key : {"bounds", "unresolved"}) {
+      if (!table.has(key)) continue;
+      any = true;
+      table.error(key, "only a union with blend has '" + std::string(key) + "'",
+                  "write it in the parts that are formulas, or add blend");
+    }
+    return any;
   }
 
   std::optional<Shape> blend(const TableView& table, int material, int depth) {
@@ -160,6 +175,11 @@ class ShapeReader {
     }
     if (table.text("shape") == "implicit") {
       part.bounds = written_bounds(table);
+      if (table.has("unresolved")) {
+        table.error("unresolved", "a part of a blend has no surface of its own",
+                    "write unresolved in the union, for the blend as a whole");
+        return std::nullopt;
+      }
       auto formula = bound_formula(c_, table);
       if (!formula) return std::nullopt;
       part.formula = *std::move(formula);

@@ -1,5 +1,6 @@
 #include "backlight/scene/resources.h"
 
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -36,6 +37,17 @@ std::optional<double> to_number(std::string_view text) {
   if (end.ec != std::errc() || end.ptr != text.data() + text.size() || !std::isfinite(value))
     return std::nullopt;
   return value;
+}
+
+// All of a program, as numbers: equal for programs that do the same with the same constants.
+std::vector<std::uint64_t> numbers_of(const Tape& tape) {
+  std::vector<std::uint64_t> numbers{tape.constants.size()};
+  for (const double constant : tape.constants) numbers.push_back(std::bit_cast<std::uint64_t>(constant));
+  for (const Instruction& step : tape.instructions) {
+    numbers.push_back((static_cast<std::uint64_t>(step.operation) << 32) | step.out);
+    numbers.push_back((static_cast<std::uint64_t>(step.a) << 32) | step.b);
+  }
+  return numbers;
 }
 
 // A table of finite numbers, with what its first line says if that is not numbers.
@@ -146,6 +158,12 @@ Result<std::vector<std::string>> ResourceCache::digests() {
 SigmoidReflectance ResourceCache::sigmoid(const LinearRgb& rgb) {
   const auto [there, added] = sigmoids_.emplace(Rgb{rgb.r, rgb.g, rgb.b}, SigmoidReflectance{});
   if (added) there->second = fit_sigmoid(rgb);
+  return there->second;
+}
+
+std::optional<FormulaBounds> ResourceCache::bounds(const ImplicitFormula& formula) {
+  const auto [there, added] = bounds_.try_emplace(numbers_of(formula.expression().tape()));
+  if (added) there->second = prove_bounds(formula);
   return there->second;
 }
 

@@ -1,10 +1,11 @@
-// What a scene takes from other files: textures, spectra, star catalogues.
+// What a scene takes from other files (textures, spectra, star catalogues), and what takes long to find.
 #pragma once
 
 #include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "backlight/base/result.h"
 #include "backlight/colour/upsampling.h"
 #include "backlight/film/texture.h"
+#include "backlight/surface/implicit_surface.h"
 
 namespace backlight {
 
@@ -44,6 +46,9 @@ class ResourceCache {
   Result<SpectrumTable> spectrum(const std::filesystem::path& path);
   /// fit_sigmoid(rgb), which takes a while, once for each colour.
   SigmoidReflectance sigmoid(const LinearRgb& rgb);
+  /// prove_bounds(formula), which takes up to half a second, once for each formula: the same operations on
+  /// the same numbers.
+  std::optional<FormulaBounds> bounds(const ImplicitFormula& formula);
 
   /// SHA-256 (hexadecimal) of the contents of every file that was asked for, in the order of first asking:
   /// what an image depends on besides the scene's own text. Fails if one cannot be read any more.
@@ -59,6 +64,7 @@ class ResourceCache {
   std::map<std::filesystem::path, std::shared_ptr<const std::vector<CatalogueStar>>> stars_;
   std::map<std::filesystem::path, SpectrumTable> spectra_;
   std::map<Rgb, SigmoidReflectance> sigmoids_;
+  std::map<std::vector<std::uint64_t>, std::optional<FormulaBounds>> bounds_;  // by the formula's tape
   std::vector<UsedFile> used_;
 };
 

@@ -89,6 +89,28 @@ TEST(CompileBlend, IsThePolynomialSmoothMinimum) {
   EXPECT_NEAR(near_one.lambda - 9, -std::sqrt(1 - 0.49), 1e-13);  // beyond the blend: the sphere itself
 }
 
+// The bounds of one image are those of the next where the formula is the same, and only there.
+TEST(CompileImplicit, BoundsAreProvedOnceForEachFormula) {
+  const std::string text = camera + "[animation]\nframes = [1, 3]\n[params]\nsize = \"floor(1 + t)\"\n" +
+                           implicit_object("x^2 + y^2 + z^2 - size^2");
+  ReadResult read = read_scene_text(text, "test.toml", {});
+  ASSERT_TRUE(read.description) << testing_scenes::all_messages(read.diagnostics);
+  ResourceCache shared;
+  for (const double time : {0.0, 0.5, 1.0, 0.25}) {
+    ImageRequest request;
+    request.time = time;
+    ResourceCache fresh;
+    const auto alone = compile(*read.description, request, fresh, read.diagnostics);
+    const auto after_others = compile(*read.description, request, shared, read.diagnostics);
+    ASSERT_TRUE(alone && after_others) << testing_scenes::all_messages(read.diagnostics);
+    const double radius = alone->frames[0].surfaces.bounds().radius;
+    EXPECT_EQ(after_others->frames[0].surfaces.bounds().radius, radius) << time;
+    const double size = std::floor(1.0 + time);
+    EXPECT_GE(radius, size);
+    EXPECT_LT(radius, 1.8 * size);
+  }
+}
+
 TEST(CompileImplicit, AbsurdFormulasAreErrorsOrEmpty) {
   for (const char* f : {"1", "t", "0*x", "0/0 + x", "sqrt(-1-x^2)", "1/0 + 0*x", "exp(x)"}) {
     const std::string text = camera + implicit_object(f, "bounds = [[-1, -1, -1], [1, 1, 1]]\n");
