@@ -96,6 +96,8 @@ figure fig7-tram-shadow fig7-tram-shadow -- --tone reinhard --white 8 --exposure
 figure terrell-row terrell-row
 figure algebraic-rest algebraic-rest -- --exposure 0 --tone none
 figure algebraic-0.9c algebraic-0.9c -- --exposure 0 --tone none
+figure stability-nodes stability-nodes -- --exposure 0 --tone none
+figure stability-shell stability-shell -- --exposure 0 --tone none
 sheet street-lamp-flicker street-lamp-flicker 1-16x5 2 -r 380x253
 sheet lattice-superluminal lattice-superluminal 1-6 3 -r 345x230
 
