@@ -98,6 +98,14 @@ figure algebraic-rest algebraic-rest -- --exposure 0 --tone none
 figure algebraic-0.9c algebraic-0.9c -- --exposure 0 --tone none
 figure stability-nodes stability-nodes -- --exposure 0 --tone none
 figure stability-shell stability-shell -- --exposure 0 --tone none
+if is_wanted stability-unresolved; then # beside it, white where the channel `unresolved` is 1
+  scripts/install.sh charts
+  "$BACKLIGHT" render scenes/stability-unresolved.toml -o "$out/stability-unresolved.exr"
+  "$BACKLIGHT" view "$out/stability-unresolved.exr" -o "$out/stability-unresolved-left.png" -q --exposure 0 --tone none
+  oiiotool "$out/stability-unresolved-left.png" "$out/stability-unresolved.exr" --ch unresolved.V,unresolved.V,unresolved.V \
+    --chnames R,G,B --mosaic 2x1 -o "$out/stability-unresolved.png"
+  publish stability-unresolved
+fi
 sheet street-lamp-flicker street-lamp-flicker 1-16x5 2 -r 380x253
 sheet lattice-superluminal lattice-superluminal 1-6 3 -r 345x230
 

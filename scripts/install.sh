@@ -19,7 +19,7 @@ declare -A packages=(
   [test]="libgtest-dev nlohmann-json3-dev chromium ffmpeg openimageio-tools libmpfr-dev libgmp-dev python3"
   [ci]="clang-14 clang-format-14"
   [bench]="libbenchmark-dev"
-  [charts]="gnuplot-nox python3"
+  [charts]="gnuplot-nox openimageio-tools python3"
   [farm]="slurmctld slurmd slurm-client munge parallel ffmpeg"
   [oracle]="python3 python3-mpmath"
 )
