@@ -51,7 +51,6 @@ TEST_P(Outline, OfASphereIsPenrosesCircle) {
                   "[[object]]\nshape = \"sphere\"\nradius = 1.3\nposition = " + vector(position) +
                   "\nbeta = " + vector(v) + "\n");
   int inside = 0;
-  Vec3 normal_sum{0.0};
   for (int y = 0; y < r.height(); ++y) {
     for (int x = 0; x < r.width(); ++x) {
       const bool expected = cone_contains(v, position, 1.3, r.direction(x, y));
