@@ -2,6 +2,7 @@
 #include <iostream>
 #include <vector>
 
+#include "backlight/render/wavelength_estimate.h"
 #include "backlight/scene/explain.h"
 #include "commands.h"
 #include "exit_codes.h"
@@ -38,7 +39,7 @@ int run(const CheckOptions& options) {
   }
   if (!session.check_camera_path(options.scene.request)) return session.exit_code();
   if (options.verbosity == Verbosity::quiet) return exit_success;
-  std::cout << explain(session.description(), *scene);
+  std::cout << explain(session.description(), *scene, needs_within_tolerance(*scene));
   if (frames.size() > 1) {
     std::cout << "No mistakes in " << checked.size() << " of its " << frames.size() << " frames.\n";
   }

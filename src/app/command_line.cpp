@@ -155,13 +155,21 @@ void add_film_flags(CLI::App& app, ImageRequest& request, RenderOptions& options
   add_value(app, "-s,--samples", "N", "samples in each pixel; 1 is exactly its centre", whole(1, 1048576),
             [&request](std::int64_t count) { request.samples = static_cast<int>(count); })
       ->group(group);
+  add_value(app, "--tolerance", "E",
+            "error of the image, as in 0.005 (1 is from black to white): samples and wavelengths are "
+            "chosen to meet it, whatever the scene says; -s and --wavelengths still fix their number",
+            parse_number, [&request](double tolerance) { request.tolerance = tolerance; })
+      ->group(group);
+  add_value(app, "--wavelengths", "N", "wavelengths that carry a colour where colours shift", whole(4, 1024),
+            [&request](std::int64_t count) { request.wavelengths = static_cast<int>(count); })
+      ->group(group);
   add_value(app, "--seed", "N", "another number gives other sample positions", whole(0, 4294967295),
             [&request](std::int64_t seed) { request.seed = static_cast<unsigned>(seed); })
       ->group(group);
   add_value(
       app, "--aov", "LIST",
       "data channels besides the colour, with commas between: Z, doppler, emissionTime, properTime, P, N, "
-      "objectId, unresolved, light; or all, or none",
+      "objectId, unresolved, light, samples; or all, or none",
       parse_aovs, [&request](std::vector<std::string> names) { request.aovs = std::move(names); })
       ->group(group);
 }

@@ -168,7 +168,15 @@ std::string render_again(const ExrPicture& picture, int x, int y) {
     command += " --time " + json_number(attribute(header, "backlight/time", 0.0));
   }
   command += " -r " + std::to_string(layout.display.width()) + "x" + std::to_string(layout.display.height());
-  command += " -s " + std::to_string(attribute(header, "backlight/samples", std::int32_t{1}));
+  if (const auto* samples = header.find<std::int32_t>("backlight/samples")) {
+    command += " -s " + std::to_string(*samples);
+  } else {
+    command += " --tolerance " + json_number(attribute(header, "backlight/tolerance", 0.0));
+  }
+  if (const auto* count = header.find<std::int32_t>("backlight/wavelengths");
+      count != nullptr && *count > 0) {
+    command += " --wavelengths " + std::to_string(*count);
+  }
   command += " --seed " + json_number(attribute(header, "backlight/seed", 0.0));
   if (const std::string aovs = aov_list(layout); !aovs.empty()) command += " --aov " + aovs;
   if (x >= 0) {

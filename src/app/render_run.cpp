@@ -16,7 +16,7 @@
 #include "backlight/film/display.h"
 #include "backlight/render/image_identity.h"
 #include "backlight/render/partial_file.h"
-#include "backlight/scene/needs.h"
+#include "backlight/render/wavelength_estimate.h"
 #include "exit_codes.h"
 #include "signals.h"
 
@@ -26,7 +26,7 @@ namespace {
 std::string details(const Scene& scene, const RenderSettings& settings, const RenderStatistics& statistics) {
   const std::string colour = settings.wavelengths > 0 ? std::to_string(settings.wavelengths) + " wavelengths"
                                                       : "red, green and blue";
-  return "  t = " + json_number(scene.time) + " s, " + std::to_string(scene.film.samples) +
+  return "  t = " + json_number(scene.time) + " s, " + json_number(statistics.samples.mean()) +
          " samples a pixel, " + colour + ", " + std::to_string(statistics.rays.primary) + " camera rays, " +
          std::to_string(statistics.rays.shadow) + " shadow rays, " + std::to_string(statistics.threads) +
          " threads";
@@ -36,13 +36,14 @@ RenderSettings settings_for(const RenderOptions& options, const Scene& scene) {
   RenderSettings settings;
   settings.threads = options.threads > 0 ? options.threads : usable_threads();
   settings.crop = options.crop;
-  settings.wavelengths = needs_of(scene).wavelengths;
+  settings.wavelengths = needs_within_tolerance(scene).wavelengths;
   settings.image_number = static_cast<std::int64_t>(std::floor(std::clamp(scene.frame, -1e15, 1e15)));
   return settings;
 }
 
 void add(RenderStatistics& sum, const RenderStatistics& more) {
   sum.rays += more.rays;
+  sum.samples += more.samples;
   sum.seconds += more.seconds;
   sum.threads = more.threads;
 }
@@ -226,7 +227,8 @@ RenderRun::Outcome RenderRun::make(const Scene& scene, const PlannedImage& image
   const RenderSettings settings = settings_for(options_, scene);
   const auto creation_time = source_date_epoch();
   if (!creation_time.ok()) return trouble(creation_time.error());
-  const ExrHeader header = image_header(scene, recogniser_.origin(image), creation_time.value());
+  const ExrHeader header =
+      image_header(scene, settings.wavelengths, recogniser_.origin(image), creation_time.value());
   PartialImage partial = begin_image(scene, settings);
   if (options_.resume) resume(image, partial);
   RenderStatistics statistics;
@@ -335,6 +337,10 @@ void RenderRun::tell(const Delivery& delivery) {
   const RenderStatistics& statistics = delivery.statistics;
   const ImageFaults& faults = delivery.faults;
   const std::string file = planned.exr.string();
+  if (statistics.samples.at_limit > 0) {
+    progress_.say("backlight: warning: " + file + ": " + std::to_string(statistics.samples.at_limit) +
+                  " pixels got the most samples there are, and may be further off than the tolerance");
+  }
   if (faults.first_non_finite) {
     const auto [x, y] = *faults.first_non_finite;
     progress_.say("backlight: warning: " + file + ": " + std::to_string(faults.non_finite) +

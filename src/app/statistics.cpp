@@ -39,7 +39,12 @@ std::string statistics_json(const Scene& scene, const RenderSettings& settings,
   object.number("frame", scene.frame).number("time", scene.time).text("file", file.string());
   object.number("width", window.width())
       .number("height", window.height())
-      .number("samples", scene.film.samples);
+      .number("samples", statistics.samples.mean());
+  if (scene.film.tolerance > 0.0) object.number("tolerance", scene.film.tolerance);
+  if (scene.film.adaptive) {
+    object.count("samplesLeast", statistics.samples.least).count("samplesMost", statistics.samples.most);
+    object.count("pixelsAtLimit", statistics.samples.at_limit);
+  }
   object.text("model", settings.wavelengths > 0 ? "spectral" : "rgb")
       .number("wavelengths", settings.wavelengths);
   object.number("threads", statistics.threads).number("seconds", statistics.seconds);

@@ -76,6 +76,13 @@ double linear_to_srgb(double linear) {
   return std::copysign(signal, linear);
 }
 
+double shown_value(double film) {
+  constexpr double slope_at_white = 1.055 / 2.4;
+  const double size = std::abs(film);
+  if (size <= 1.0) return linear_to_srgb(film);
+  return std::copysign(1.0 + slope_at_white * std::log(size), film);
+}
+
 double srgb_to_linear(double signal) {
   const double size = std::abs(signal);
   const double linear = size <= 0.04045 ? size / 12.92 : std::pow((size + 0.055) / 1.055, 2.4);

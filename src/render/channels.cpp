@@ -11,25 +11,27 @@ namespace {
 struct DataChannel {
   std::string_view aov;
   const char* name;
-  double (*value)(const SurfaceRecord&);
+  double (*value)(const PixelData&);
 };
 
-using R = SurfaceRecord;
+using R = PixelData;
 constexpr std::array data_channels{
-    DataChannel{"Z", "Z", [](const R& r) { return r.distance; }},
-    DataChannel{"doppler", "doppler.D", [](const R& r) { return r.doppler; }},
-    DataChannel{"emissionTime", "emissionTime.T", [](const R& r) { return r.emission_time; }},
-    DataChannel{"properTime", "properTime.T", [](const R& r) { return r.proper_time; }},
-    DataChannel{"P", "P.X", [](const R& r) { return r.position.x; }},
-    DataChannel{"P", "P.Y", [](const R& r) { return r.position.y; }},
-    DataChannel{"P", "P.Z", [](const R& r) { return r.position.z; }},
-    DataChannel{"N", "N.X", [](const R& r) { return r.normal.x; }},
-    DataChannel{"N", "N.Y", [](const R& r) { return r.normal.y; }},
-    DataChannel{"N", "N.Z", [](const R& r) { return r.normal.z; }},
-    DataChannel{"objectId", "objectId.V", [](const R& r) { return static_cast<double>(r.object_id); }},
-    DataChannel{"unresolved", "unresolved.V", [](const R& r) { return r.unresolved ? 1.0 : 0.0; }},
-    DataChannel{"light", "light.N", [](const R& r) { return static_cast<double>(r.lamps); }},
-    DataChannel{"light", "light.Y", [](const R& r) { return r.unshifted; }},
+    DataChannel{"Z", "Z", [](const R& r) { return r.surface.distance; }},
+    DataChannel{"doppler", "doppler.D", [](const R& r) { return r.surface.doppler; }},
+    DataChannel{"emissionTime", "emissionTime.T", [](const R& r) { return r.surface.emission_time; }},
+    DataChannel{"properTime", "properTime.T", [](const R& r) { return r.surface.proper_time; }},
+    DataChannel{"P", "P.X", [](const R& r) { return r.surface.position.x; }},
+    DataChannel{"P", "P.Y", [](const R& r) { return r.surface.position.y; }},
+    DataChannel{"P", "P.Z", [](const R& r) { return r.surface.position.z; }},
+    DataChannel{"N", "N.X", [](const R& r) { return r.surface.normal.x; }},
+    DataChannel{"N", "N.Y", [](const R& r) { return r.surface.normal.y; }},
+    DataChannel{"N", "N.Z", [](const R& r) { return r.surface.normal.z; }},
+    DataChannel{"objectId", "objectId.V",
+                [](const R& r) { return static_cast<double>(r.surface.object_id); }},
+    DataChannel{"unresolved", "unresolved.V", [](const R& r) { return r.surface.unresolved ? 1.0 : 0.0; }},
+    DataChannel{"light", "light.N", [](const R& r) { return static_cast<double>(r.surface.lamps); }},
+    DataChannel{"light", "light.Y", [](const R& r) { return r.surface.unshifted; }},
+    DataChannel{"samples", "samples.N", [](const R& r) { return static_cast<double>(r.samples); }},
 };
 
 bool asked_for(const Scene& scene, std::string_view aov) {
@@ -84,9 +86,9 @@ bool PixelWriter::write(std::size_t channel, int x, int y, double value) {
   return std::isfinite(stored);
 }
 
-bool PixelWriter::data(int x, int y, const SurfaceRecord& record) {
+bool PixelWriter::data(int x, int y, const PixelData& data) {
   bool finite = true;
-  for (std::size_t i = 0; i < data_.size(); ++i) finite &= write(4 + i, x, y, data_[i](record));
+  for (std::size_t i = 0; i < data_.size(); ++i) finite &= write(4 + i, x, y, data_[i](data));
   return finite;
 }
 

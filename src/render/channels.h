@@ -19,6 +19,12 @@ bool has_data_channels(const Scene& scene);
 /// Whether those of the light that reaches a surface are asked for, which cost as much as the colour.
 bool has_light_channels(const Scene& scene);
 
+/// What the data channels tell of a pixel.
+struct PixelData {
+  SurfaceRecord surface;  ///< of the ray through its centre
+  int samples = 0;        ///< that its colour is the mean of
+};
+
 /// Writes one view's pixels, by the channel order of layout_of.
 class PixelWriter {
  public:
@@ -36,7 +42,7 @@ class PixelWriter {
     }
     return finite;
   }
-  bool data(int x, int y, const SurfaceRecord& record);
+  bool data(int x, int y, const PixelData& data);
 
  private:
   bool write(std::size_t channel, int x, int y, double value);
@@ -44,7 +50,7 @@ class PixelWriter {
   Image& image_;
   std::size_t first_;             // channel
   std::array<float*, 4> colour_;  // planes
-  std::vector<double (*)(const SurfaceRecord&)> data_;
+  std::vector<double (*)(const PixelData&)> data_;
 };
 
 }  // namespace backlight

@@ -55,7 +55,7 @@ std::string effects_text(const Effects& effects) {
          ", " + searchlight_text(effects.brightness);
 }
 
-ExrHeader image_header(const Scene& scene, const ImageOrigin& origin,
+ExrHeader image_header(const Scene& scene, int wavelengths, const ImageOrigin& origin,
                        std::optional<std::int64_t> creation_time) {
   const CameraView& camera = scene.camera;
   const Vec3 celerity = camera.celerity.rounded();
@@ -77,7 +77,9 @@ ExrHeader image_header(const Scene& scene, const ImageOrigin& origin,
   list.push_back({"backlight/cameraCelerity", celerity * scene.c});
   list.push_back({"backlight/cameraTime", camera.proper_time / scene.c});
   list.push_back({"backlight/c", scene.c});
-  list.push_back({"backlight/samples", std::int32_t{scene.film.samples}});
+  if (scene.film.tolerance > 0.0) list.push_back({"backlight/tolerance", scene.film.tolerance});
+  if (!scene.film.adaptive) list.push_back({"backlight/samples", std::int32_t{scene.film.samples}});
+  list.push_back({"backlight/wavelengths", std::int32_t{wavelengths}});
   list.push_back({"backlight/seed", double(scene.film.seed)});
   list.push_back({"backlight/effects", effects_text(scene.effects)});
   if (!scene.regions.empty()) list.push_back({"backlight/effectsRegions", region_texts(scene)});

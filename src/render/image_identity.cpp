@@ -20,7 +20,9 @@ void add(std::string& list, const char* name, double value) {
 void add(std::string& list, const FilmSettings& film) {
   add(list, "width", film.width);
   add(list, "height", film.height);
-  add(list, "samples", film.samples);
+  add(list, film.adaptive ? "most samples" : "samples", film.samples);
+  add(list, "tolerance", film.tolerance);
+  add(list, "wavelengths", film.wavelengths);
   add(list, "seed", film.seed);
   std::vector<std::string> aovs = film.aovs;
   std::ranges::sort(aovs);  // a file has its channels in alphabetical order

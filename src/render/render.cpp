@@ -8,6 +8,7 @@
 
 #include "backlight/base/thread_pool.h"
 #include "backlight/camera/sampling.h"
+#include "backlight/render/adaptive_sampling.h"
 #include "backlight/render/progress.h"
 #include "channels.h"
 
@@ -19,6 +20,7 @@ constexpr int block_size = 8;  // a sheet of rays is a block's
 
 // Tiles get smaller with the number of samples: a tile is put aside as a whole.
 int tile_size_of(const Scene& scene) {
+  if (scene.film.adaptive) return 16;
   return scene.film.samples <= 16 ? largest_tile : scene.film.samples <= 64 ? 16 : block_size;
 }
 
@@ -51,6 +53,8 @@ struct ThreadMemory {
   explicit ThreadMemory(const Tracer& tracer, const SheetTracer* sheets)
       : scratch(tracer.make_scratch()), sheet(nullptr, nullptr) {
     if (sheets != nullptr) sheet = sheets->make_scratch();
+    const FilmSettings& film = tracer.scene().film;
+    if (film.adaptive) sampler.emplace(film.tolerance, PixelBox{0, 0, film.width, film.height});
   }
 
   Scratch scratch;
@@ -59,6 +63,8 @@ struct ThreadMemory {
   std::vector<TilePixel> pixels;
   std::vector<LinearRgb> sums;
   std::vector<int> covered;
+  std::optional<AdaptiveSampler> sampler;  // where the number of samples is chosen
+  SampleCounts samples;
 };
 
 // Whether the rest of a tile's samples will take less than a moment, by what those before have taken: when a
@@ -87,7 +93,7 @@ class ViewRenderer {
   void tile(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& memory) {
     if (sheets_ != nullptr) {
       try {
-        tile_in_sheets(box, stop, memory);
+        memory.sampler ? tile_to_tolerance(box, stop, memory) : tile_in_sheets(box, stop, memory);
         return;
       } catch (const std::bad_alloc&) {
         throw;
@@ -95,26 +101,104 @@ class ViewRenderer {
         // One by one, below, it turns out which pixel it was.
       }
     }
+    if (memory.sampler) {
+      tile_to_tolerance(box, stop, memory);
+      return;
+    }
     for (int y = box.y0; y < box.y1; ++y) {
       for (int x = box.x0; x < box.x1; ++x) {
         std::uint8_t& is_done = done_[image_.offset(x, y)];
         if (is_done != 0) continue;
         if (stop.load(std::memory_order_relaxed)) return;
-        pixel_or_failure(x, y, memory.scratch);
+        pixel_or_failure(x, y, memory);
         is_done = 1;
       }
     }
   }
 
  private:
-  void pixel_or_failure(int x, int y, Scratch& scratch) {
+  void pixel_or_failure(int x, int y, ThreadMemory& memory) {
     try {
-      pixel(x, y, scratch);
+      pixel(x, y, memory);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
       throw PixelFailure(x, y, error.what());
     }
+  }
+
+  // As many samples of each missing pixel as it needs.
+  void tile_to_tolerance(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {
+    list_missing(box, m.pixels);
+    if (m.pixels.empty()) return;
+    const auto trace = [&](std::span<const TilePixel> pixels, int index, std::vector<PixelSample>& samples) {
+      if (stop.load(std::memory_order_relaxed)) return false;
+      trace_samples(pixels, index, m, samples);
+      return true;
+    };
+    if (!m.sampler->tile(box, m.pixels, trace)) return;
+    for (std::size_t k = 0; k < m.pixels.size(); ++k) {
+      const auto [x, y] = m.pixels[k];
+      write(x, y, m.sampler->estimates()[k], nullptr, m);
+      done_[image_.offset(x, y)] = 1;
+    }
+  }
+
+  void trace_samples(std::span<const TilePixel> pixels, int index, ThreadMemory& m,
+                     std::vector<PixelSample>& samples) const {
+    const Scene& scene = tracer_.scene();
+    samples.assign(pixels.size(), {});
+    if (sheets_ != nullptr) {
+      sheets_->trace(pixels, settings_.image_number, index, eye_, false, *m.sheet, m.scratch, m.light);
+    }
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+      const auto [x, y] = pixels[k];
+      const ImagePoint point =
+          sample_point({scene.film.seed, settings_.image_number, x, y}, index, scene.film.samples);
+      samples[k].x = point.x - x;
+      samples[k].y = point.y - y;
+      if (sheets_ == nullptr) {
+        trace_point_or_failure({x, y}, point, m.scratch, samples[k]);
+      } else if (m.light.covered[k] != 0) {
+        samples[k].covered = true;
+        samples[k].colour = m.light.colour[k];
+      }
+    }
+  }
+
+  void trace_point_or_failure(const TilePixel& pixel, const ImagePoint& point, Scratch& scratch,
+                              PixelSample& sample) const {
+    try {
+      trace_point(point, scratch, sample);
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw PixelFailure(pixel.x, pixel.y, error.what());
+    }
+  }
+
+  void trace_point(const ImagePoint& point, Scratch& scratch, PixelSample& sample) const {
+    const Effects& effects = effects_at(tracer_.scene(), point);
+    const auto ray = camera_ray(tracer_.scene().camera, point, effects, eye_);
+    if (!ray) return;
+    sample.covered = true;
+    sample.colour = tracer_.colour(*ray, effects, scratch);
+  }
+
+  // Adds the stars and the data channels, of which `record` is known where it is not null.
+  void write(int x, int y, PixelEstimate estimate, const SurfaceRecord* record, ThreadMemory& m) {
+    const Scene& scene = tracer_.scene();
+    if (estimate.coverage > 0.0 && tracer_.has_stars()) {
+      estimate.colour += tracer_.stars(x, y, eye_, m.scratch);
+    }
+    m.samples.add(estimate.samples, estimate.at_limit);
+    bool finite = writer_.colour(x, y, estimate.colour, estimate.coverage);
+    if (record != nullptr) {
+      finite &= writer_.data(x, y, {*record, estimate.samples});
+    } else if (has_data_channels(scene)) {
+      finite &= data(x, y, estimate.samples, m.scratch);
+    }
+    if (!finite) ++m.scratch.counts.non_finite;
   }
 
   void list_missing(const PixelBox& box, std::vector<TilePixel>& pixels) const {
@@ -136,7 +220,6 @@ class ViewRenderer {
     list_missing(box, m.pixels);
     const Scene& scene = tracer_.scene();
     const int samples = scene.film.samples;
-    const bool data = has_data_channels(scene);
     const bool records = samples == 1 && has_data_channels(scene) && !has_light_channels(scene);
     if (samples > 1) {
       m.sums.assign(m.pixels.size(), LinearRgb{0.0});
@@ -155,49 +238,38 @@ class ViewRenderer {
     for (std::size_t k = 0; k < m.pixels.size(); ++k) {
       const auto [x, y] = m.pixels[k];
       const int covered = samples == 1 ? m.light.covered[k] : m.covered[k];
-      LinearRgb colour = samples == 1 ? LinearRgb{0.0} + m.light.colour[k] : m.sums[k] / double(samples);
-      if (covered > 0 && tracer_.has_stars()) colour += tracer_.stars(x, y, eye_, m.scratch);
-      const double alpha = samples == 1 ? double(covered) : double(covered) / samples;
-      bool finite = writer_.colour(x, y, colour, alpha);
-      if (records) {
-        finite &= writer_.data(x, y, m.light.record[k]);
-      } else if (data) {
-        finite &= this->data(x, y, m.scratch);
-      }
-      if (!finite) ++m.scratch.counts.non_finite;
+      const double share = samples == 1 ? double(covered) : double(covered) / samples;
+      const LinearRgb colour =
+          samples == 1 ? LinearRgb{0.0} + m.light.colour[k] : m.sums[k] / double(samples);
+      write(x, y, {colour, share, samples}, records ? &m.light.record[k] : nullptr, m);
       done_[image_.offset(x, y)] = 1;
     }
   }
 
-  void pixel(int x, int y, Scratch& scratch) {
+  void pixel(int x, int y, ThreadMemory& m) {
     const Scene& scene = tracer_.scene();
+    const int samples = scene.film.samples;
     LinearRgb sum{0.0};
     int covered = 0;
-    const int samples = scene.film.samples;
-    const SampleKey key{scene.film.seed, settings_.image_number, x, y};
     for (int i = 0; i < samples; ++i) {
-      const ImagePoint point = sample_point(key, i, samples);
-      const Effects& effects = effects_at(scene, point);
-      const auto ray = camera_ray(scene.camera, point, effects, eye_);
-      if (!ray) continue;
-      sum += tracer_.colour(*ray, effects, scratch);
+      PixelSample sample;
+      trace_point(sample_point({scene.film.seed, settings_.image_number, x, y}, i, samples), m.scratch,
+                  sample);
+      if (!sample.covered) continue;
+      sum += sample.colour;
       ++covered;
     }
-    LinearRgb colour = sum / double(samples);
-    if (covered > 0) colour += tracer_.stars(x, y, eye_, scratch);
-    bool finite = writer_.colour(x, y, colour, double(covered) / samples);
-    if (has_data_channels(scene)) finite &= data(x, y, scratch);
-    if (!finite) ++scratch.counts.non_finite;
+    write(x, y, {sum / double(samples), double(covered) / samples, samples}, nullptr, m);
   }
 
-  bool data(int x, int y, Scratch& scratch) {
+  bool data(int x, int y, int samples, Scratch& scratch) {
     const Scene& scene = tracer_.scene();
     const ImagePoint centre{x + 0.5, y + 0.5};
     const Effects& effects = effects_at(scene, centre);
     const auto ray = camera_ray(scene.camera, centre, effects, eye_);
     SurfaceRecord record = ray ? tracer_.surface(*ray, scratch) : SurfaceRecord{};
     if (ray && has_light_channels(scene)) tracer_.add_light(*ray, effects, record, scratch);
-    return writer_.data(x, y, record);
+    return writer_.data(x, y, {record, samples});
   }
 
   const Tracer& tracer_;
@@ -223,11 +295,29 @@ std::vector<ViewRenderer> views_of(const Tracer& tracer, const SheetTracer* shee
 
 RenderStatistics summed(const std::vector<ThreadMemory>& memories) {
   RenderStatistics statistics;
-  for (const ThreadMemory& memory : memories) statistics.rays += memory.scratch.counts;
+  for (const ThreadMemory& memory : memories) {
+    statistics.rays += memory.scratch.counts;
+    statistics.samples += memory.samples;
+  }
   return statistics;
 }
 
 }  // namespace
+
+void SampleCounts::add(int samples, bool is_at_limit) {
+  const auto count = static_cast<std::uint64_t>(samples);
+  *this += {1, count, count, count, is_at_limit ? 1U : 0U};
+}
+
+SampleCounts& SampleCounts::operator+=(const SampleCounts& other) {
+  if (other.pixels == 0) return *this;
+  least = pixels == 0 ? other.least : std::min(least, other.least);
+  most = std::max(most, other.most);
+  pixels += other.pixels;
+  total += other.total;
+  at_limit += other.at_limit;
+  return *this;
+}
 
 std::size_t tile_count(const Scene& scene, const RenderSettings& settings) {
   return TileGrid(scene, settings).count();

@@ -20,8 +20,7 @@ struct NotYet {
   std::string_view name;
   std::string_view instead;
 };
-constexpr std::array<NotYet, 2> keys_not_yet{
-    {{"film", "tolerance", "give 'samples' instead"}, {"object", "file", ""}}};
+constexpr std::array<NotYet, 1> keys_not_yet{{{"object", "file", ""}}};
 
 bool is_identifier(const std::string& name) {
   const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };

@@ -129,9 +129,22 @@ void check_request(const ImageRequest& request, Diagnostics& diagnostics) {
     check("resolution", request.resolution->second);
   }
   if (request.samples) check("samples", *request.samples);
+  if (request.tolerance) check("tolerance", *request.tolerance);
+  if (request.wavelengths) check("wavelengths", *request.wavelengths);
   if (request.aovs) check_aovs(*request.aovs, diagnostics);
   if (request.time && !std::isfinite(*request.time))
     diagnostics.error({}, "the time must be a finite number");
+}
+
+// What is given by number wins over the tolerance, and the command line over the file.
+void read_accuracy(const TableView& table, const ImageRequest& request, FilmSettings& film) {
+  const bool asked = request.tolerance.has_value();
+  film.tolerance = asked ? *request.tolerance : table.optional_number("tolerance").value_or(0.0);
+  film.samples = request.samples.value_or(static_cast<int>(table.number("samples")));
+  film.adaptive = film.tolerance > 0.0 && !request.samples && (asked || !table.has("samples"));
+  if (film.adaptive) film.samples = most_adaptive_samples;
+  const double in_file = asked ? 0.0 : table.optional_number("wavelengths").value_or(0.0);
+  film.wavelengths = request.wavelengths.value_or(static_cast<int>(in_file));
 }
 
 FilmSettings read_film(ImageValues& values, const ImageRequest& request) {
@@ -140,7 +153,6 @@ FilmSettings read_film(ImageValues& values, const ImageRequest& request) {
   const std::vector<double> size = table.numbers("resolution");
   film.width = static_cast<int>(size[0]);
   film.height = static_cast<int>(size[1]);
-  film.samples = static_cast<int>(table.number("samples"));
   film.seed = static_cast<unsigned>(table.number("seed"));
   if (const Node* aovs = table.node_of("aovs"); aovs != nullptr && aovs->array() != nullptr) {
     for (const Node& name : *aovs->array()) {
@@ -149,7 +161,7 @@ FilmSettings read_film(ImageValues& values, const ImageRequest& request) {
   }
   check_request(request, values.diagnostics);
   if (request.resolution) std::tie(film.width, film.height) = *request.resolution;
-  film.samples = request.samples.value_or(film.samples);
+  read_accuracy(table, request, film);
   film.seed = request.seed.value_or(film.seed);
   if (request.aovs) film.aovs = *request.aovs;
   std::vector<std::string> once;

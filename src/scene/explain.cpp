@@ -43,7 +43,8 @@ std::string motion_words(const ExtendedVec3& celerity) {
 std::string image_words(const Scene& scene) {
   const FilmSettings& film = scene.film;
   std::string text = std::to_string(film.width) + " x " + std::to_string(film.height) + " pixels, " +
-                     plural(static_cast<std::size_t>(film.samples), "sample") + " each";
+                     (film.adaptive ? "samples for an error of " + six_digits(film.tolerance)
+                                    : plural(static_cast<std::size_t>(film.samples), "sample") + " each");
   if (!film.aovs.empty()) text += "; AOVs " + listed(film.aovs, "and");
   return text;
 }
@@ -107,9 +108,9 @@ std::string background_words(const Scene& scene) {
 }
 
 std::string model_words(const Needs& needs) {
-  std::string text = needs.spectral
-                         ? "spectral, " + std::to_string(needs.wavelengths) + " wavelengths: " + needs.why
-                         : "red, green, blue: " + needs.why;
+  std::string text = needs.spectral ? "spectral: " + needs.why + "; " + std::to_string(needs.wavelengths) +
+                                          " wavelengths, " + needs.why_so_many
+                                    : "red, green, blue: " + needs.why;
   text += needs.shadow_rays ? "; shadow rays" : "; no shadow rays";
   text += needs.textures > 0 ? "; " + plural(needs.textures, "texture") : "; no textures";
   return text;
@@ -117,8 +118,7 @@ std::string model_words(const Needs& needs) {
 
 }  // namespace
 
-std::string explain(const Description& description, const Scene& scene) {
-  const Needs needs = needs_of(scene);
+std::string explain(const Description& description, const Scene& scene, const Needs& needs) {
   std::string text =
       description.file + ": at t = " + six_digits(scene.time) + " s with c = " + six_digits(scene.c) + "\n";
   const auto line = [&](const std::string& label, const std::string& words_of_it) {

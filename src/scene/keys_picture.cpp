@@ -56,10 +56,22 @@ KeyTable film() {
   return {
       "film",
       "[film]",
-      "The image: its size, its samples and its channels.",
+      "The image: its size, its accuracy and its channels.",
       {numbers("resolution", 2, std::vector<double>{720, 526}, "pixels", "Width and height.",
                whole(1, 65536)),
        number("samples", 1.0, "", "Samples a pixel; 1 is exactly the pixel's centre.", whole(1, 1048576)),
+       number(
+           "tolerance", Nothing{}, "",
+           "The root mean square error of the image, 1 being the step from black to white on the screen (a "
+           "step of "
+           "an "
+           "8-bit picture is 0.004): samples and wavelengths are then chosen to meet it, where `samples` and "
+           "`wavelengths` do not give their number.",
+           {.least = 1e-4, .greatest = 1}),
+       number(
+           "wavelengths", Nothing{}, "",
+           "Wavelengths that carry a colour where colours shift. Without it 56, or what `tolerance` needs.",
+           whole(4, 1024)),
        number("seed", 0.0, "", "Another number gives other sample positions.", whole(0, 4294967295.0)),
        {"aovs",
         {{ValueKind::choices}},
@@ -71,10 +83,10 @@ KeyTable film() {
         "and the "
         "light: `light.N`, how many lights reach the point (its own one "
         "of them; -1 where there is no surface), and `light.Y`, the luminance it would have if no colour "
-        "were "
-        "shifted.",
+        "were shifted. `samples.N` is the number of samples that the pixel got.",
         {},
-        {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId", "unresolved", "light"}}},
+        {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId", "unresolved", "light",
+         "samples"}}},
       ""};
 }
 

@@ -75,7 +75,11 @@ void choose_model(const Scene& scene, Needs& needs) {
   const std::string all_motion = shifting_motion(scene, {true, true});
   const std::string shown_motion = shifting_motion(scene, shifts_shown(scene));
   needs.spectral = !shown_motion.empty();
-  needs.wavelengths = needs.spectral ? default_wavelength_count : 0;
+  if (needs.spectral) {
+    const bool given = scene.film.wavelengths > 0;
+    needs.wavelengths = given ? scene.film.wavelengths : default_wavelength_count;
+    needs.why_so_many = given ? "as given" : "the default, enough for any colours";
+  }
   if (needs.spectral) {
     needs.why = shown_motion;
   } else if (all_motion.empty() && needs.stars > 0 &&

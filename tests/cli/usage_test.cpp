@@ -128,7 +128,8 @@ TEST_F(Usage, WrongLinesAreExplained) {
        "--progress: expected one of auto, bar, lines, json, none, not 'barr'; did you mean 'bar'?",
        render},
       {{"scene.toml", "--aov", "Z,dopler"},
-       "--aov: expected one of Z, doppler, emissionTime, properTime, P, N, objectId, unresolved, light, all, "
+       "--aov: expected one of Z, doppler, emissionTime, properTime, P, N, objectId, unresolved, light, "
+       "samples, all, "
        "none, not "
        "'dopler'; did you "
        "mean 'doppler'?",

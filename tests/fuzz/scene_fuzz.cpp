@@ -21,6 +21,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const Diagnostic& diagnostic : read.diagnostics.all()) {
     if (diagnostic.message.empty() || format(diagnostic).empty()) std::abort();
   }
-  if (scene && explain(*read.description, *scene).empty()) std::abort();
+  if (scene && explain(*read.description, *scene, needs_of(*scene)).empty()) std::abort();
   return 0;
 }

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "backlight/camera/projection.h"
+#include "backlight/render/wavelength_estimate.h"
 #include "backlight/scene/compile.h"
-#include "backlight/scene/needs.h"
 #include "backlight/scene/reader.h"
 
 namespace backlight::test {
@@ -29,7 +29,7 @@ Rendering render(ReadResult read, const RenderChoices& choices) {
   RenderSettings settings;
   settings.threads = choices.threads;
   settings.crop = choices.crop;
-  settings.wavelengths = choices.wavelengths.value_or(needs_of(*scene).wavelengths);
+  settings.wavelengths = choices.wavelengths.value_or(needs_within_tolerance(*scene).wavelengths);
   settings.path = choices.path;
   settings.instructions = choices.instructions;
   const std::atomic<bool> stop{false};

@@ -16,6 +16,11 @@ namespace backlight {
 double linear_to_srgb(double linear);
 double srgb_to_linear(double signal);
 
+/// The scale on which errors of a film value count as they are seen: the sRGB signal up to white (film 1 is
+/// 1; a step of an 8-bit picture is 1/255), and above, where only an exposure makes it visible, on with the
+/// same slope logarithmically: 1 + 0.4396 ln v, so that 1 % is 0.0044 at any brightness. Odd, increasing.
+double shown_value(double film);
+
 /// How luminance L (after exposure; 1 is a white surface in full light) becomes display luminance.
 enum class ToneCurve {
   /// As it is. Each channel is cut at 1.

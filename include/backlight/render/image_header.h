@@ -21,8 +21,9 @@ struct ImageOrigin {
 };
 
 /// The header of an image (docs/command-line.md lists the attributes). The clock goes in only as
-/// `creation_time`: the same scene gives the same bytes.
-ExrHeader image_header(const Scene& scene, const ImageOrigin& origin,
+/// `creation_time`, and nothing that differs between
+/// parts of an image or tells how often it was put aside: the same scene gives the same bytes.
+ExrHeader image_header(const Scene& scene, int wavelengths, const ImageOrigin& origin,
                        std::optional<std::int64_t> creation_time);
 
 /// Effects as they would be written in a scene file, with commas between.

@@ -29,9 +29,24 @@ struct RenderSettings {
   InstructionSet instructions = InstructionSet::widest;  ///< of sheets
 };
 
+/// The samples that the pixels got. (Those around a tile, which only help to choose, count as rays alone.)
+struct SampleCounts {
+  std::uint64_t pixels = 0;
+  std::uint64_t total = 0;
+  std::uint64_t least = 0;     ///< in any pixel
+  std::uint64_t most = 0;      ///< in any pixel
+  std::uint64_t at_limit = 0;  ///< pixels whose error may be larger than film.tolerance for all that
+
+  void add(int samples, bool is_at_limit);
+  SampleCounts& operator+=(const SampleCounts& other);
+  /// Samples a pixel on average; 0 without pixels.
+  [[nodiscard]] double mean() const { return pixels > 0 ? double(total) / double(pixels) : 0.0; }
+};
+
 /// What making the image took.
 struct RenderStatistics {
   RayCounts rays;
+  SampleCounts samples;
   double seconds = 0.0;  ///< wall time, tracing only
   int threads = 1;
 };

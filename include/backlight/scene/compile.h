@@ -20,6 +20,8 @@ struct ImageRequest {
   std::string camera;          ///< name of a [[camera]]; the first one by default
   std::optional<std::pair<int, int>> resolution;
   std::optional<int> samples;
+  std::optional<double> tolerance;  ///< replaces `samples` and `wavelengths` of the file too
+  std::optional<int> wavelengths;
   std::optional<unsigned> seed;
   std::optional<std::vector<std::string>> aovs;
 };

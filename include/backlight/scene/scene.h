@@ -135,13 +135,20 @@ struct CameraView {
   std::optional<Stereo> stereo;
 };
 
+/// No pixel gets more samples where their number is chosen.
+inline constexpr int most_adaptive_samples = 4096;
+
 /// What the film asks for.
 struct FilmSettings {
   int width = 720;
   int height = 526;
-  int samples = 1;
+  int samples = 1;  ///< of each pixel; at most, if `adaptive`
   unsigned seed = 0;
-  std::vector<std::string> aovs;  ///< of: Z doppler emissionTime properTime P N objectId light
+  std::vector<std::string> aovs;  ///< of: Z doppler emissionTime properTime P N objectId light samples
+  double tolerance =
+      0.0;  ///< root mean square error asked for, on the scale of shown_value(); 0: none asked for
+  bool adaptive = false;  ///< the samples of each pixel are chosen to meet `tolerance`
+  int wavelengths = 0;    ///< where colours shift; 0: for the program to choose
 };
 
 struct Scene {

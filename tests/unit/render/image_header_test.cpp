@@ -35,7 +35,7 @@ TEST(ImageHeader, SaysHowTheImageWasMade) {
   scene.film.seed = 4294967295U;
   scene.regions.push_back({0.25, 0.5, 0.75, 1.0, {}});
   const ExrHeader header =
-      image_header(scene, {"Backlight 1.2.3", "tram.toml", "abc", {"camera.fov=40"}}, 1700000000);
+      image_header(scene, 24, {"Backlight 1.2.3", "tram.toml", "abc", {"camera.fov=40"}}, 1700000000);
   EXPECT_EQ(header.software, "Backlight 1.2.3");
   EXPECT_EQ(header.creation_time, 1700000000);
   EXPECT_EQ(*header.find<std::string>("backlight/scene"), "tram.toml");
@@ -51,6 +51,7 @@ TEST(ImageHeader, SaysHowTheImageWasMade) {
   EXPECT_EQ(*header.find<double>("backlight/cameraTime"), 2.0);
   EXPECT_EQ(*header.find<double>("backlight/c"), 5.0);
   EXPECT_EQ(*header.find<std::int32_t>("backlight/samples"), 16);
+  EXPECT_EQ(*header.find<std::int32_t>("backlight/wavelengths"), 24);
   EXPECT_EQ(*header.find<double>("backlight/seed"), 4294967295.0);
   EXPECT_EQ(*header.find<std::int32_t>("backlight/complete"), 1);
   EXPECT_EQ(*header.find<std::vector<std::string>>("backlight/effectsRegions"),
@@ -59,11 +60,21 @@ TEST(ImageHeader, SaysHowTheImageWasMade) {
 }
 
 TEST(ImageHeader, LeavesOutWhatIsNotThere) {
-  const ExrHeader header = image_header(Scene{}, {"Backlight", "a.toml", "abc", {}}, std::nullopt);
+  const ExrHeader header = image_header(Scene{}, 0, {"Backlight", "a.toml", "abc", {}}, std::nullopt);
   EXPECT_FALSE(header.creation_time.has_value());
   EXPECT_EQ(header.find<std::vector<std::string>>("backlight/overrides"), nullptr);
   EXPECT_EQ(header.find<std::string>("backlight/camera"), nullptr);
   EXPECT_EQ(header.find<std::vector<std::string>>("backlight/effectsRegions"), nullptr);
+  EXPECT_EQ(header.find<double>("backlight/tolerance"), nullptr);
+}
+
+TEST(ImageHeader, SaysWhichErrorWasAskedForInsteadOfANumberOfSamples) {
+  Scene scene;
+  scene.film.tolerance = 0.01;
+  scene.film.adaptive = true;
+  const ExrHeader header = image_header(scene, 12, {"Backlight", "a.toml", "abc", {}}, std::nullopt);
+  EXPECT_EQ(*header.find<double>("backlight/tolerance"), 0.01);
+  EXPECT_EQ(header.find<std::int32_t>("backlight/samples"), nullptr);
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ TEST(SceneMutations, AreAnsweredWithASceneOrWithErrors) {
     if (read.description) scene = compile(*read.description, {}, cache, read.diagnostics);
     ASSERT_EQ(scene.has_value(), !read.diagnostics.has_errors()) << text;
     expect_places_in_text(read.diagnostics);
-    ASSERT_TRUE(!scene || !explain(*read.description, *scene).empty());
+    ASSERT_TRUE(!scene || !explain(*read.description, *scene, needs_of(*scene)).empty());
     ++(scene ? scenes : refusals);
     ASSERT_FALSE(HasFailure()) << text;
   }

@@ -90,7 +90,7 @@ TEST(SceneExplain, SaysWhatThereIs) {
   const std::string text = "c = 2\n[film]\nresolution = [64, 48]\naovs = [\"Z\", \"P\"]\n" + camera + moving +
                            lamp + "[effects]\nrate = \"dilation\"\n";
   const ReadResult read = read_scene_text(text, "tram.toml");
-  EXPECT_EQ(explain(*read.description, compiled(text)),
+  EXPECT_EQ(explain(*read.description, compiled(text), needs(text)),
             "tram.toml: at t = 0 s with c = 2\n"
             "  image      64 x 48 pixels, 1 sample each; AOVs Z and P\n"
             "  camera     perspective, 60 degrees wide; at rest\n"
@@ -101,15 +101,15 @@ TEST(SceneExplain, SaysWhatThereIs) {
             "  background black\n"
             "  effects    light delay on, colour shift on, brightness D (energy) x gamma (rate) x D^2 (solid "
             "angle)\n"
-            "  model      spectral, " +
+            "  model      spectral: object 'tram' moves relative to the camera; " +
                 std::to_string(needs(text).wavelengths) +
-                " wavelengths: object 'tram' moves relative to the camera; shadow rays; no textures\n");
+                " wavelengths, the default, enough for any colours; shadow rays; no textures\n");
 }
 
 TEST(SceneExplain, NearTheSpeedOfLightSaysWhatIsMissing) {
   const std::string text = camera + sphere + "gamma = 1e6\nalong = [0, 0, 1]\n";
   const ReadResult read = read_scene_text(text);
-  const std::string said = explain(*read.description, compiled(text));
+  const std::string said = explain(*read.description, compiled(text), needs(text));
   EXPECT_NE(said.find("c (1 - 5e-13) (gamma = 1e+06) along [0, 0, 1]"), std::string::npos) << said;
 }
 

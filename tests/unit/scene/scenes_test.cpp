@@ -36,7 +36,7 @@ TEST_P(ShippedScenes, HaveNothingWrong) {
     const auto scene = compile(*read.description, request, cache, read.diagnostics);
     ASSERT_TRUE(scene.has_value()) << "frame " << frame << "\n"
                                    << testing_scenes::all_messages(read.diagnostics);
-    EXPECT_FALSE(explain(*read.description, *scene).empty());
+    EXPECT_FALSE(explain(*read.description, *scene, needs_of(*scene)).empty());
   }
   EXPECT_TRUE(read.diagnostics.all().empty()) << testing_scenes::all_messages(read.diagnostics);
 }

@@ -1,0 +1,63 @@
+// Time and error of whole images as the tolerance, or a fixed number of samples, turns.
+//   chart_dial SCENE...     CSV on stdout; SCENE is a name in scenes/, such as first
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+#include "support/measure.h"
+
+namespace backlight::bench {
+namespace {
+
+constexpr std::pair<int, int> size{120, 88};
+constexpr int reference_samples = 400;
+constexpr double busy_above = 0.01;
+
+struct Reference {
+  Image fine, centres;
+};
+
+void report(const std::string& scene, const char* method, double setting, const Reference& reference,
+            const ImageRequest& request) {
+  const Scene compiled = load("scenes/" + scene + ".toml", {}, request);
+  const double start = cpu_seconds();
+  const RenderedImage made = render(compiled);
+  const double seconds = cpu_seconds() - start;
+  const ImageError e = error_of(made.image, reference.fine, reference.centres, busy_above);
+  std::printf("%s,%s,%g,%.4g,%.3f,%.4g,%.4g,%.4g,%.4g,%zu,%zu\n", scene.c_str(), method, setting, seconds,
+              made.statistics.samples.mean(), e.rms, e.busy_rms, e.percentile99, e.worst,
+              std::size_t(made.statistics.rays.primary), std::size_t(made.statistics.samples.at_limit));
+  std::fflush(stdout);
+}
+
+void chart(const std::string& scene) {
+  ImageRequest request;
+  request.resolution = size;
+  request.aovs = std::vector<std::string>{"samples"};
+  request.seed = 1;
+  request.samples = reference_samples;
+  request.wavelengths = 96;
+  Reference reference;
+  reference.fine = render(load("scenes/" + scene + ".toml", {}, request), 2).image;
+  request.seed = 0;
+  request.samples = 1;
+  reference.centres = render(load("scenes/" + scene + ".toml", {}, request), 2).image;
+  request.wavelengths.reset();
+  for (const int samples : {1, 4, 9, 16, 36, 64, 144}) {
+    request.samples = samples;
+    report(scene, "uniform", samples, reference, request);
+  }
+  request.samples.reset();
+  for (const double tolerance : {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001}) {
+    request.tolerance = tolerance;
+    report(scene, "tolerance", tolerance, reference, request);
+  }
+}
+
+}  // namespace
+}  // namespace backlight::bench
+
+int main(int argc, char** argv) {
+  std::puts("scene,method,setting,cpu_seconds,samples,rms,busy_rms,percentile99,worst,camera_rays,at_limit");
+  for (int i = 1; i < argc; ++i) backlight::bench::chart(argv[i]);
+}
