@@ -51,6 +51,7 @@ std::string statistics_json(const Scene& scene, const RenderSettings& settings,
   object.count("cameraRays", statistics.rays.primary).count("shadowRays", statistics.rays.shadow);
   object.count("dataRays", statistics.rays.data);
   object.count("nonFinitePixels", faults.non_finite).count("beyondHalfPixels", faults.beyond_half);
+  object.count("rootsSolved", statistics.rays.roots);
   object.count("unresolvedHits", statistics.rays.unresolved);
   return object.str();
 }

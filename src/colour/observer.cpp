@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 
 #include "backlight/colour/spectrum.h"
@@ -101,6 +103,13 @@ WavelengthSet::WavelengthSet(int count) {
     green_[i] /= white.y;
     blue_[i] /= white.z;
   }
+}
+
+const WavelengthSet& wavelength_set(int count) {
+  static std::mutex guard;
+  static std::map<int, WavelengthSet> made;  // an element stays where it is
+  const std::lock_guard lock(guard);
+  return made.try_emplace(count, count).first->second;
 }
 
 LinearRgb WavelengthSet::film(const double* radiance) const {

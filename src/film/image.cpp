@@ -8,7 +8,6 @@
 namespace backlight {
 
 bool fits_half(float value) {
-  constexpr float greatest_half = 65504.0F;
   return !std::isfinite(value) || std::abs(value) <= greatest_half;
 }
 

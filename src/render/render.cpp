@@ -10,6 +10,7 @@
 #include "backlight/camera/sampling.h"
 #include "backlight/render/adaptive_sampling.h"
 #include "backlight/render/progress.h"
+#include "backlight/surface/implicit_surface.h"
 #include "channels.h"
 
 namespace backlight {
@@ -357,9 +358,10 @@ RenderStatistics render_missing(const Scene& scene, const RenderSettings& settin
   for (int i = 0; i < std::max(1, settings.threads); ++i) memories.emplace_back(tracer, in_use);
 
   run_on_threads(grid.count(), settings.threads, stop, [&](std::size_t index, int thread) {
-    for (ViewRenderer& view : views) {
-      view.tile(grid.tile(index), stop, memories[static_cast<std::size_t>(thread)]);
-    }
+    ThreadMemory& memory = memories[static_cast<std::size_t>(thread)];
+    const std::uint64_t roots_before = roots_solved_by_this_thread();
+    for (ViewRenderer& view : views) view.tile(grid.tile(index), stop, memory);
+    memory.scratch.counts.roots += roots_solved_by_this_thread() - roots_before;
     if (progress != nullptr) progress->advance();
   });
 

@@ -1,6 +1,7 @@
 // The implicit surface f = 0 inside its bounds, as a shape.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "backlight/surface/implicit_surface.h"
@@ -63,6 +64,9 @@ FormulaLine formula_line(const Shape& shape, const LocalLine& line) {
   return {{p.x, p.y, p.z, scale * line.clock.start}, {d.x, d.y, d.z, scale * line.clock.rate}};
 }
 
+/// For the statistics.
+thread_local std::uint64_t roots_solved = 0;
+
 /// Whether a root is left out.
 bool skipped(const Shape& shape, const Root& root) {
   return root.kind == RootKind::unresolved && shape.values[skips] != 0.0;
@@ -105,6 +109,7 @@ Crossings walk_along(const Shape& shape, const LocalLine& line, double from, dou
   Crossings result;
   RootWalk walk(*shape.formula, formula_line(shape, line), from, to);
   for (Root root; result.count < 4 && walk.next(root);) {
+    ++roots_solved;
     if (skipped(shape, root) || (wanted == Wanted::first && !(line.lambda(root.t) > lambda_min))) continue;
     result.list[result.count++] = crossing_of(root);
     if (wanted == Wanted::first) break;
@@ -129,6 +134,7 @@ void first_crossings_of(const Shape& shape, std::span<const LocalLine> lines, do
   first_roots(*shape.formula, q.pieces, q.roots);
   for (std::size_t k = 0; k < q.pieces.size(); ++k) {
     if (!found(q.roots[k])) continue;
+    ++roots_solved;
     const LocalLine& line = lines[q.line_of[k]];
     Crossings& result = results[q.line_of[k]];
     if (!skipped(shape, q.roots[k]) && line.lambda(q.roots[k].t) > lambda_min) {
@@ -163,6 +169,7 @@ void profile_of(const Shape& shape, const LocalLine& line, SolidProfile& profile
   RootWalk walk(*shape.formula, formula_line(shape, line), stretch.in, stretch.out);
   become(walk.sign_at_start() < 0, stretch.in, stretch.part_in);
   for (Root root; walk.next(root);) {
+    ++roots_solved;
     const bool now = root.sign_after < 0;
     // At the edge of a domain or behind a jump f may have changed its sign without a root.
     become(root.sign_before < 0, root.lower, 0);
@@ -228,6 +235,10 @@ LocalPoint point_of(const Shape& shape, const LocalLine& in_frame_time, const Cr
 const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",        true,         problem_of,
                                     radius_of,           extent_of,         crossings_of, point_of,
                                     profile_of,          first_crossings_of};
+
+std::uint64_t roots_solved_by_this_thread() {
+  return roots_solved;
+}
 
 Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high) {
   return implicit(std::move(f), low, high, ImplicitOptions{});

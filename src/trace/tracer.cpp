@@ -38,7 +38,7 @@ bool any_without_shift(const Scene& scene) {
 Tracer::Tracer(const Scene& scene, int wavelengths)
     : scene_(&scene),
       hub_(make_hub(scene)),
-      wavelengths_(wavelengths > 0 ? wavelengths : default_wavelength_count),
+      wavelengths_(wavelength_set(wavelengths > 0 ? wavelengths : default_wavelength_count)),
       spectral_(wavelengths > 0),
       stars_(star_images(scene, hub_, wavelengths_)) {
   if (!spectral_ || any_without_shift(scene) || records_light(scene))

@@ -1,5 +1,6 @@
 // Which files a render writes, and what is in them.
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "backlight/film/exr.h"
@@ -213,6 +214,29 @@ TEST_F(Output, TellsOfUnresolvedRoots) {
   EXPECT_NE(outcome.err.find(std::to_string(shown) + " of 256 camera rays meet a surface where its root"),
             std::string::npos)
       << outcome.err;
+}
+
+TEST_F(Output, CountsTheRootsOfFormulas) {
+  const auto roots = [&](const std::string& object) {
+    write("scene.toml",
+          "[film]\nresolution = [16, 16]\n[camera]\nposition = [0, 0, -5]\nlook_at = [0, 0, 0]\n"
+          "[[object]]\n" +
+              object);
+    expect_success({"scene.toml", "--stats", "stats.json", "--aov", "Z", "-s", "1"});
+    const std::string line = read("stats.json");
+    const std::string name = "\"rootsSolved\":";
+    const std::size_t at = line.find(name);
+    return at == std::string::npos ? -1L : std::stol(line.substr(at + name.size()));
+  };
+  EXPECT_EQ(roots("shape = \"sphere\"\nradius = 1\n"), 0);
+  const long ball = roots(
+      "shape = \"implicit\"\nf = \"x^2 + y^2 + z^2 - 1\"\n"
+      "bounds = [[-1.5, -1.5, -1.5], [1.5, 1.5, 1.5]]\n");
+  const Image depth = picture("scene.exr").image;
+  const auto plane = depth.plane(static_cast<std::size_t>(depth.find_channel("Z")));
+  // One for each ray that sees it; nothing casts a shadow.
+  EXPECT_EQ(ball, std::ranges::count_if(plane, [](float z) { return std::isfinite(z) && z > 0.0F; }));
+  EXPECT_GT(ball, 10);
 }
 
 TEST_F(Output, ProgressIsOnStandardErrorAlone) {

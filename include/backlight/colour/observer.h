@@ -46,6 +46,10 @@ class WavelengthSet {
   std::vector<double> blue_;
 };
 
+/// The set of so many wavelengths, made when it is first asked for: the images of a process share it. From any
+/// thread.
+const WavelengthSet& wavelength_set(int count);
+
 /// Colour-matching functions x, y, z of the CIE 1931 standard observer (2 degrees): the 1 nm table,
 /// interpolated linearly; 0 outside 360..830 nm.
 Xyz colour_matching_functions(double nm);

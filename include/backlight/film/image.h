@@ -33,6 +33,9 @@ enum class ChannelPrecision {
 /// half.
 bool fits_half(float value);
 
+/// The greatest number in half precision.
+inline constexpr float greatest_half = 65504.0F;
+
 /// A channel's name as in the file ("R", "Z", "doppler.D", "P.X"...) and its storage.
 struct ChannelInfo {
   std::string name;

@@ -1,6 +1,7 @@
 // Surfaces given by formulas: what may be chosen, and where they can be.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -48,5 +49,9 @@ struct FormulaBounds {
 /// surface that comes from infinity. The cube is then cut down to a box, side by side, by intervals over
 /// slabs.
 std::optional<FormulaBounds> prove_bounds(const ImplicitFormula& formula);
+
+/// How many roots of formulas the calling thread has found since it began, for statistics: the difference of
+/// two calls is the work between them.
+std::uint64_t roots_solved_by_this_thread();
 
 }  // namespace backlight

@@ -17,6 +17,7 @@ struct RayCounts {
   std::uint64_t non_finite = 0;  ///< pixels with a NaN or an infinity
   /// Camera rays that see a root which could not be isolated to full precision (surface/implicit.h).
   std::uint64_t unresolved = 0;
+  std::uint64_t roots = 0;  ///< of formulas, solved along rays of any kind
 
   RayCounts& operator+=(const RayCounts& more) {
     primary += more.primary;
@@ -24,6 +25,7 @@ struct RayCounts {
     data += more.data;
     non_finite += more.non_finite;
     unresolved += more.unresolved;
+    roots += more.roots;
     return *this;
   }
 };
