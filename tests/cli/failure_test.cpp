@@ -23,7 +23,7 @@ class FailureTest : public ProgramTest {
   void as_ordinary_user() {
     if (geteuid() != 0) return;
     in_child = [] {
-      for (const unsigned long privilege : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH}) {
+      for (const unsigned privilege : {unsigned{CAP_DAC_OVERRIDE}, unsigned{CAP_DAC_READ_SEARCH}}) {
         if (prctl(PR_CAPBSET_DROP, privilege, 0, 0, 0) != 0) _exit(126);
       }
     };

@@ -46,8 +46,8 @@ class WavelengthSet {
   std::vector<double> blue_;
 };
 
-/// The set of so many wavelengths, made when it is first asked for: the images of a process share it. From any
-/// thread.
+/// The set of so many wavelengths, made when it is first asked for: the images of a process share it. From
+/// any thread.
 const WavelengthSet& wavelength_set(int count);
 
 /// Colour-matching functions x, y, z of the CIE 1931 standard observer (2 degrees): the 1 nm table,
