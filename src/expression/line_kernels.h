@@ -7,13 +7,6 @@
 
 namespace backlight {
 
-/// Bounds of a value and of its slope, or a number and its slope.
-template <class N>
-struct WithSlope {
-  N value;
-  N slope;
-};
-
 template <class V>
 BACKLIGHT_LANES void load(const double* from, std::size_t stride, LaneBounds<V>& number) {
   number.minus_lower = V::load(from);

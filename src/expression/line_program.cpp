@@ -43,38 +43,38 @@ void fill_up(LineBatch& lines, std::size_t count) {
 
 enum class Question { piece, point };
 
-/// Runs the kernels of one question on lines first ... first + count - 1, a multiple of the padding.
+/// Runs the kernels of one question on the first `count` lines, a multiple of the padding.
 class Run {
  public:
   Run(const LineProgram& program, LineBatch& lines, std::vector<double>& workspace)
       : program_(program), kernels_(kernels(program.width())), lines_(lines), workspace_(workspace) {}
 
   /// False: some line was in trouble, and nothing found is to be trusted.
-  [[gnu::noinline]] bool bounds(Question question, std::size_t first, std::size_t count) {
-    const LineWork work = work_on(first, count, question == Question::point);
+  [[gnu::noinline]] bool bounds(Question question, std::size_t count) {
+    const LineWork work = work_on(count, question == Question::point);
     const RoundUp mode;
     (question == Question::piece ? kernels_.pieces : kernels_.points)(work);
     return !mode.failed();
   }
 
-  void numbers(std::size_t count) { kernels_.numbers(work_on(0, count, true)); }
+  void numbers(std::size_t count) { kernels_.numbers(work_on(count, true)); }
 
   [[nodiscard]] const double* result(std::size_t component, std::size_t count) const {
     return workspace_.data() + component * count;
   }
 
  private:
-  LineWork work_on(std::size_t first, std::size_t count, bool at_point) {
+  LineWork work_on(std::size_t count, bool at_point) {
     LineWork work;
     work.steps = program_.steps().data();
     work.step_count = program_.steps().size();
     work.constants = program_.tape().constants.data();
     for (std::size_t v = 0; v < LineBatch::most_variables; ++v) {
-      work.origin[v] = lines_.origin(v) + first;
-      work.direction[v] = lines_.direction(v) + first;
+      work.origin[v] = lines_.origin(v);
+      work.direction[v] = lines_.direction(v);
     }
-    work.from = lines_.from() + first;
-    work.to = (at_point ? lines_.from() : lines_.to()) + first;
+    work.from = lines_.from();
+    work.to = at_point ? lines_.from() : lines_.to();
     if (workspace_.size() < program_.workspace(count)) workspace_.resize(program_.workspace(count));
     work.registers = workspace_.data();
     work.stride = count;
@@ -111,15 +111,14 @@ void enclose_carefully(const LineProgram& program, LineBatch& lines, std::size_t
   lines.continuity()[i] = static_cast<double>(piece.value.continuity);
 }
 
-void take(const Run& run, LineBatch& lines, std::size_t first, std::size_t count, std::size_t wanted,
-          Question question) {
+void take(const Run& run, LineBatch& lines, std::size_t count, std::size_t wanted, Question question) {
   for (std::size_t i = 0; i < wanted; ++i) {
-    lines.lower()[first + i] = -run.result(0, count)[i];
-    lines.upper()[first + i] = run.result(1, count)[i];
-    lines.continuity()[first + i] = 0.0;
+    lines.lower()[i] = -run.result(0, count)[i];
+    lines.upper()[i] = run.result(1, count)[i];
+    lines.continuity()[i] = 0.0;
     if (question == Question::piece) {
-      lines.slope_lower()[first + i] = -run.result(2, count)[i];
-      lines.slope_upper()[first + i] = run.result(3, count)[i];
+      lines.slope_lower()[i] = -run.result(2, count)[i];
+      lines.slope_upper()[i] = run.result(3, count)[i];
     }
   }
 }
@@ -131,8 +130,8 @@ void enclose_lines(const LineProgram& program, LineBatch& lines, std::size_t cou
   if (count == 0) return;
   fill_up(lines, count);
   Run run(program, lines, workspace);
-  if (run.bounds(question, 0, padded(count))) {
-    take(run, lines, 0, padded(count), count, question);
+  if (run.bounds(question, padded(count))) {
+    take(run, lines, padded(count), count, question);
     return;
   }
   LineBatch alone(LineBatch::padding);
@@ -145,11 +144,11 @@ void enclose_lines(const LineProgram& program, LineBatch& lines, std::size_t cou
     alone.to()[0] = lines.to()[i];
     fill_up(alone, 1);
     Run single(program, alone, workspace);
-    if (!single.bounds(question, 0, LineBatch::padding)) {
+    if (!single.bounds(question, LineBatch::padding)) {
       enclose_carefully(program, lines, i, question);
       continue;
     }
-    take(single, alone, 0, LineBatch::padding, 1, question);
+    take(single, alone, LineBatch::padding, 1, question);
     for (auto array : {&LineBatch::lower, &LineBatch::upper, &LineBatch::slope_lower, &LineBatch::slope_upper,
                        &LineBatch::continuity}) {
       (lines.*array)()[i] = (alone.*array)()[0];
