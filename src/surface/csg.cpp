@@ -252,10 +252,14 @@ LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& c
   return result;
 }
 
+RootFinder finder_of(const Shape& /*shape*/) {
+  return RootFinder::solid;
+}
+
 }  // namespace
 
-const ShapeMethods csg_methods{ShapeKind::csg, "csg",        true,     problem_of, bounding_radius,
-                               half_extent,    crossings_of, point_of, nullptr};
+const ShapeMethods csg_methods{ShapeKind::csg, "csg",    true,    problem_of, bounding_radius, half_extent,
+                               crossings_of,   point_of, nullptr, nullptr,    finder_of};
 
 Shape csg(const SolidTree& tree) {
   Shape shape;

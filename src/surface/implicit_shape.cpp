@@ -230,11 +230,15 @@ LocalPoint point_of(const Shape& shape, const LocalLine& in_frame_time, const Cr
   return result;
 }
 
+RootFinder finder_of(const Shape& /*shape*/) {
+  return RootFinder::interval;
+}
+
 }  // namespace
 
-const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",        true,         problem_of,
-                                    radius_of,           extent_of,         crossings_of, point_of,
-                                    profile_of,          first_crossings_of};
+const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",         true,         problem_of,
+                                    radius_of,           extent_of,          crossings_of, point_of,
+                                    profile_of,          first_crossings_of, finder_of};
 
 std::uint64_t roots_solved_by_this_thread() {
   return roots_solved;

@@ -39,6 +39,27 @@ bool is_infinite(const Shape& shape) {
   return std::isinf(methods(shape).bounding_radius(shape, Vec3{1.0}));
 }
 
+RootFinder root_finder(const Shape& shape) {
+  const auto finder = methods(shape).finder;
+  return finder == nullptr ? RootFinder::closed_form : finder(shape);
+}
+
+std::string_view name(RootFinder finder) {
+  switch (finder) {
+    case RootFinder::closed_form:
+      return "closed form";
+    case RootFinder::quartic:
+      return "quartic";
+    case RootFinder::interval:
+      return "interval + derivative";
+    case RootFinder::affine:
+      return "reduced affine";
+    case RootFinder::solid:
+      break;
+  }
+  return "CSG";
+}
+
 bool is_solid(const Shape& shape) {
   return methods(shape).encloses;
 }

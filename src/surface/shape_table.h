@@ -90,6 +90,8 @@ struct ShapeMethods {
   void (*profile)(const Shape&, const LocalLine&, SolidProfile&);
   /// The first crossings of many lines at once, each as `crossings` would report it; null: one by one.
   void (*first_crossings)(const Shape&, std::span<const LocalLine>, double lambda_min, std::span<Crossings>);
+  /// How crossings are found; null: in closed form.
+  RootFinder (*finder)(const Shape&);
 };
 
 /// The row of a kind.

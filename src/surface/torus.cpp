@@ -192,10 +192,15 @@ double half_extent(const Shape& shape, const Extent& e) {
   return shape.values[0] * e.circle + shape.values[1] * e.sphere;
 }
 
+RootFinder finder_of(const Shape& /*shape*/) {
+  return RootFinder::quartic;
+}
+
 }  // namespace
 
-const ShapeMethods torus_methods{ShapeKind::torus, "torus",      true,     problem_of, bounding_radius,
-                                 half_extent,      crossings_of, point_of, nullptr};
+const ShapeMethods torus_methods{ShapeKind::torus, "torus",     true,         problem_of,
+                                 bounding_radius,  half_extent, crossings_of, point_of,
+                                 nullptr,          nullptr,     finder_of};
 
 Shape torus(double major, double minor) {
   return {ShapeKind::torus, {major, minor}, {}};

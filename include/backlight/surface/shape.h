@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "backlight/base/vector.h"
 
@@ -85,6 +86,21 @@ bool is_infinite(const Shape& shape);
 /// Whether the shape has an inside. Of the closed forms all but the disk: a plane is the half-space y < 0, a
 /// quadric is solid where its left side is negative.
 bool is_solid(const Shape& shape);
+
+/// How the crossings of a line with a surface are found (docs/implicit.md).
+enum class RootFinder : std::uint8_t {
+  closed_form,  ///< to degree 2
+  quartic,      ///< the torus's own solver
+  interval,     ///< a formula: bounds on it and on its slope
+  affine,       ///< a formula: reduced affine forms, bounds on the slope where a root is
+  solid         ///< the events of the parts of a solid, each found in its own way, in their order
+};
+
+/// Which of them the shape's camera and shadow rays take.
+RootFinder root_finder(const Shape& shape);
+
+/// "closed form", "quartic", "interval + derivative", "reduced affine", "CSG".
+std::string_view name(RootFinder finder);
 
 /// What is wrong with the shape ("radius must be positive and finite"), or an empty text.
 std::string problem(const Shape& shape);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "backlight/surface/placement.h"
+#include "backlight/surface/solid.h"
 
 namespace backlight {
 namespace {
@@ -18,6 +19,19 @@ TEST(Shape, GoodSizesHaveNoProblem) {
                              torus(2, 1), disk(1), plane(), quadric({1, 1, 1, 0, 0, 0, 0, 0, 0, -1})}) {
     EXPECT_EQ(problem(shape), "");
   }
+}
+
+TEST(Shape, RootFindersHaveNames) {
+  EXPECT_EQ(root_finder(sphere(1)), RootFinder::closed_form);
+  EXPECT_EQ(root_finder(cone(1, 0, 2)), RootFinder::closed_form);
+  EXPECT_EQ(root_finder(torus(2, 1)), RootFinder::quartic);
+  EXPECT_EQ(root_finder(csg({{}, {}, SolidOperation::unite, {{sphere(1), {}, {}, {}, 0}}, 0})),
+            RootFinder::solid);
+  EXPECT_EQ(name(RootFinder::closed_form), "closed form");
+  EXPECT_EQ(name(RootFinder::quartic), "quartic");
+  EXPECT_EQ(name(RootFinder::interval), "interval + derivative");
+  EXPECT_EQ(name(RootFinder::affine), "reduced affine");
+  EXPECT_EQ(name(RootFinder::solid), "CSG");
 }
 
 TEST(Shape, BadSizesAreNamed) {
