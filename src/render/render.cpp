@@ -366,6 +366,7 @@ RenderStatistics render_missing(const Scene& scene, const RenderSettings& settin
   });
 
   RenderStatistics statistics = summed(memories);
+  statistics.strategy = sheets ? sheets->strategy() : tracer.strategy();
   statistics.threads = settings.threads;
   statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return statistics;

@@ -3,14 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "culling.h"
+
 namespace backlight {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// A frame with more surfaces than this has its shadow rays walk its tree, one by one, instead of having each
-// surface's cone on the light's sky looked at.
-constexpr std::size_t tree_from = 64;
 
 // Columns of `count` numbers, and room for a register of any width behind the last.
 std::size_t padded(std::size_t count) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "culling.h"
 #include "ray_list.h"
 #include "shading_steps.h"
 
@@ -14,9 +15,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// With fewer occluders than this, each chunk of points looks at all of them.
-constexpr int tile_list_from = 48;
 
 // As many points have a list of occluders of their own.
 constexpr int few = 16;
@@ -84,7 +82,7 @@ void SheetShader::begin_tile(const Effects& effects) {
   for (std::size_t light = 0; light < scene.lights.size(); ++light) {
     const LampView& view = sheets_.lamp(light);
     if (scene.lights[light].kind != LightKind::point || !view.in_lanes ||
-        view.bounded.table().count < tile_list_from) {
+        static_cast<std::size_t>(view.bounded.table().count) < tile_list_from) {
       continue;
     }
     const LaneLamp lamp = lane_lamp(light, scene.lights[light].frame);
@@ -263,7 +261,7 @@ void SheetShader::shadow(std::size_t light, const Occupant& occupant, std::span<
   }
   // What may shade anything of the tile, of it what may shade anything of this sheet, of that what may shade
   // a few neighbours: each list is made from the one before.
-  const bool listed = view.bounded.table().count >= tile_list_from;
+  const bool listed = static_cast<std::size_t>(view.bounded.table().count) >= tile_list_from;
   const SheetKernels& kernels = sheets_.kernels();
   const PointSheet& p = work_.points;
   Bundle bundle;

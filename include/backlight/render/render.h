@@ -47,6 +47,7 @@ struct SampleCounts {
 struct RenderStatistics {
   RayCounts rays;
   SampleCounts samples;
+  TraceStrategy strategy;
   double seconds = 0.0;  ///< wall time, tracing only
   int threads = 1;
 };

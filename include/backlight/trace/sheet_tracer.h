@@ -54,6 +54,9 @@ class SheetTracer {
   void trace(std::span<const TilePixel> pixels, std::int64_t image_number, int sample, int eye, bool records,
              SheetScratch& sheets, Scratch& scratch, TileLight& light) const;
 
+  /// How the rays of this image are spared most of its surfaces.
+  [[nodiscard]] TraceStrategy strategy() const;
+
   /// The instruction set in use, by name.
   [[nodiscard]] const char* instructions() const;
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "backlight/trace/sky.h"
+#include "backlight/trace/trace_strategy.h"
 
 namespace backlight {
 
@@ -50,6 +51,9 @@ class Tracer {
 
   /// The stars of pixel (x, y) of the full image that no object hides from this eye.
   LinearRgb stars(int x, int y, int eye, Scratch& scratch) const;
+
+  /// How this one-ray-at-a-time way finds what a ray meets.
+  [[nodiscard]] TraceStrategy strategy() const;
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Hub& hub() const { return hub_; }

@@ -1,0 +1,17 @@
+// The thresholds between ways of culling. All were measured on fields of spheres of 10 to 10,000, with their
+// own velocities or sharing 1, 8 or 64 frames.
+#pragma once
+
+#include <cstddef>
+
+namespace backlight {
+
+/// A frame with more surfaces than this has its shadow rays walk its tree, one by one, instead of having each
+/// surface's cone on the light's sky looked at.
+inline constexpr std::size_t tree_from = 64;
+
+/// With fewer occluders than this, each sheet of points looks at all of them; with more a tile lists first
+/// what may shade anything of it.
+inline constexpr std::size_t tile_list_from = 48;
+
+}  // namespace backlight
