@@ -6,7 +6,7 @@
 #   build    compiler, CMake and libraries: what scripts/render.sh needs
 #   test     what the tests need besides
 #   ci       the second compiler and the formatter of .ci/run
-#   bench    kernel benchmarks
+#   bench    what scripts/bench.sh measures beside: POV-Ray, Embree; and kernel benchmarks
 #   charts   what scripts/gallery.sh and the charts of docs/ need besides
 #   farm     a Slurm for this machine alone, GNU parallel and ffmpeg: what tests/farm/run.sh needs
 #   oracle   mpmath, to recompute the reference values that the tests hold as literals
@@ -18,8 +18,8 @@ declare -A packages=(
   [build]="g++ cmake ninja-build pkgconf libopenexr-dev libopenimageio-dev libglm-dev libtomlplusplus-dev libcli11-dev"
   [test]="libgtest-dev nlohmann-json3-dev chromium ffmpeg openimageio-tools libmpfr-dev libgmp-dev python3"
   [ci]="clang-14 clang-format-14"
-  [bench]="libbenchmark-dev"
-  [charts]="gnuplot-nox openimageio-tools python3"
+  [bench]="libbenchmark-dev libembree-dev libmpfr-dev povray python3 util-linux"
+  [charts]="gnuplot-nox openimageio-tools python3 fonts-dejavu-core"
   [farm]="slurmctld slurmd slurm-client munge parallel ffmpeg"
   [oracle]="python3 python3-mpmath"
 )

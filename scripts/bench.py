@@ -1,0 +1,232 @@
+"""The measurements of scripts/bench.sh, which builds what is needed and calls this. Standard library only."""
+
+import argparse
+import csv
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+BACKLIGHT = "build/bench/bin/backlight"
+FIELD = "build/bench/bench/sphere_field"
+EMBREE = "build/bench/bench/embree_spheres"
+YARDSTICKS = "bench/yardsticks"
+ROWS = ("spheres", "torus", "barth", "gyroid", "motion", "spectral", "many", "threads", "memory", "startup")
+PLAIN = ("-D", "effects.doppler=false")  # red, green and blue, with the searchlight effect
+
+
+class Bench:
+    """Subjects by name, each run once a round; every run's seconds by subject."""
+
+    def __init__(self, folder, rounds):
+        self.folder, self.rounds = folder, rounds
+        self.subjects, self.runs, self.memory = {}, {}, {}
+
+    def add(self, name, run):
+        self.subjects[name] = run
+
+    def measure(self):
+        for number in range(self.rounds + 1):  # the first one warms up
+            for name, run in self.subjects.items():
+                traced, whole = run()
+                if number > 0:
+                    self.runs.setdefault(name, []).append((traced, whole))
+            print(f"  round {number} of {self.rounds}", end="\r", file=sys.stderr, flush=True)
+        print(" " * 30, end="\r", file=sys.stderr)
+
+    def seconds(self, name):
+        return statistics.median(traced for traced, _ in self.runs[name])
+
+    def whole_seconds(self, name):
+        return statistics.median(whole for _, whole in self.runs[name])
+
+
+def run_quietly(command):
+    begin = time.perf_counter()
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"bench: failed: {' '.join(command)}\n{done.stderr}")
+    return done, time.perf_counter() - begin
+
+
+def on_cpus(threads):
+    """One thread stays on one CPU."""
+    return ["taskset", "-c", "0"] if threads == 1 else []
+
+
+def backlight(bench, scene, *options, threads=1, size="720x526"):
+    """A run of the program: seconds of tracing, and of the whole process."""
+    stats = os.path.join(bench.folder, "stats.json")
+    command = on_cpus(threads) + [BACKLIGHT, "render", scene, "-o", os.path.join(bench.folder, "picture.exr"), "-q",
+                                  "-r", size, "--threads", str(threads), "--stats", stats, *options]
+
+    def run():
+        _, whole = run_quietly(command)
+        with open(stats, encoding="utf-8") as file:
+            return json.loads(file.readline())["seconds"], whole
+
+    return run
+
+
+def povray(bench, scene, *options, threads=1, size=(720, 526)):
+    command = on_cpus(threads) + ["povray", f"+I{scene}", f"+O{os.path.join(bench.folder, 'picture.png')}",
+                                  f"+W{size[0]}", f"+H{size[1]}", "-A", "-D", f"+WT{threads}", *options]
+
+    def run():
+        done, whole = run_quietly(command)
+        return float(re.search(r"Trace Time:.*?\(([\d.]+) seconds\)", done.stderr).group(1)), whole
+
+    return run
+
+
+def embree(mode):
+    def run():
+        done, whole = run_quietly(on_cpus(1) + [EMBREE, "200", "3"])
+        seconds = {row["mode"]: float(row["seconds"]) for row in csv.DictReader(done.stdout.splitlines())}
+        return min(seconds.values()) if mode == "best" else seconds[mode], whole
+
+    return run
+
+
+def field(bench, spheres, motion):
+    ending = "pov" if motion == "povray" else "toml"
+    path = os.path.join(bench.folder, f"spheres-{spheres}-{motion}.{ending}")
+    if not os.path.exists(path):
+        with open(path, "w", encoding="utf-8") as file:
+            subprocess.run([FIELD, str(spheres), motion], stdout=file, check=True)
+    return path
+
+
+def peak_megabytes(command):
+    """Of a process alone, from the moment it is started."""
+    child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    return usage.ru_maxrss / 1024 if child.returncode == 0 else float("nan")
+
+
+def subjects(bench, rows):
+    """What is timed, for the rows that are wanted."""
+    spheres = {"spheres", "motion", "spectral", "many", "threads"} & set(rows)
+    if spheres:
+        bench.add("200 spheres moving", backlight(bench, field(bench, 200, "distinct"), *PLAIN))
+        bench.add("200 spheres at rest", backlight(bench, field(bench, 200, "rest")))
+    if "spheres" in rows:
+        bench.add("POV-Ray 200 spheres", povray(bench, field(bench, 200, "povray")))
+        bench.add("Embree 200 spheres", embree("best"))
+    for name, v in (("torus", "0.8"), ("barth", "0.8"), ("gyroid", "0.8")):
+        if name in rows:
+            scene = f"{YARDSTICKS}/{name}"
+            bench.add(f"{name} moving", backlight(bench, scene + ".toml", "-D", f"params.v={v}"))
+            bench.add(f"{name} at rest", backlight(bench, scene + ".toml"))
+            bench.add(f"POV-Ray {name}", povray(bench, scene + ".pov"))
+            if name in ("torus", "barth"):
+                bench.add(f"POV-Ray {name} sturm", povray(bench, scene + ".pov", "Declare=Sturm=1"))
+    if "spectral" in rows:
+        bench.add("200 spheres spectral", backlight(bench, field(bench, 200, "distinct")))
+    if "many" in rows:
+        bench.add("10000 spheres moving", backlight(bench, field(bench, 10000, "distinct"), *PLAIN))
+    if "threads" in rows:
+        big = {"size": "1440x1052"}
+        for threads in (1, 2):
+            bench.add(f"big, {threads} threads",
+                      backlight(bench, field(bench, 200, "distinct"), *PLAIN, threads=threads, **big))
+            bench.add(f"POV-Ray big, {threads} threads",
+                      povray(bench, field(bench, 200, "povray"), threads=threads, size=(1440, 1052)))
+    if "startup" in rows:
+        one = os.path.join(bench.folder, "one.toml")
+        with open(one, "w", encoding="utf-8") as file:
+            file.write('[camera]\nposition = [0, 0, -5]\n[[light]]\n[[object]]\nshape = "sphere"\nradius = 1\n')
+        bench.add("one sphere, 64x64", backlight(bench, one, size="64x64"))
+
+
+def report(bench, rows):
+    """The table: (work, ours, its seconds, other, its seconds, ratio, wanted)."""
+    lines = []
+
+    def ratio(work, numerator, denominator, wanted):
+        a, b = bench.seconds(numerator), bench.seconds(denominator)
+        lines.append((work, numerator, f"{a:.4f} s", denominator, f"{b:.4f} s", f"{a / b:.2f}", wanted))
+
+    if "spheres" in rows:
+        ratio("200 moving spheres", "POV-Ray 200 spheres", "200 spheres moving", ">= 10")
+        ratio("the same at rest", "POV-Ray 200 spheres", "200 spheres at rest", ">= 14")
+        ratio("  beside Embree's best mode", "Embree 200 spheres", "200 spheres at rest", ">= 1.0")
+    if "torus" in rows:
+        ratio("torus at 0.8c", "POV-Ray torus", "torus moving", ">= 4")
+        ratio("  beside sturm", "POV-Ray torus sturm", "torus moving", "")
+    if "barth" in rows:
+        ratio("Barth's sextic at 0.8c", "POV-Ray barth", "barth moving", ">= 12")
+        ratio("  beside sturm", "POV-Ray barth sturm", "barth moving", "")
+    if "gyroid" in rows:
+        ratio("gyroid at 0.8c, isosurface 1e-3", "POV-Ray gyroid", "gyroid moving", ">= 6")
+    if "motion" in rows:
+        ratio("cost of motion", "200 spheres moving", "200 spheres at rest", "<= 1.2")
+    for name in ("torus", "barth", "gyroid"):
+        if "motion" in rows and name in rows:
+            ratio(f"  {name}", f"{name} moving", f"{name} at rest", "<= 1.2")
+    if "spectral" in rows:
+        ratio("spectra beside RGB", "200 spheres spectral", "200 spheres moving", "<= 2.5")
+    if "many" in rows:
+        ratio("10 000 spheres beside 200", "10000 spheres moving", "200 spheres moving", "<= 10")
+    if "threads" in rows:
+        ratio("two threads, 1440x1052", "big, 1 threads", "big, 2 threads", ">= 1.9")
+        ratio("  POV-Ray's", "POV-Ray big, 1 threads", "POV-Ray big, 2 threads", "")
+        ratio("  POV-Ray beside ours, two", "POV-Ray big, 2 threads", "big, 2 threads", "")
+    return lines
+
+
+def print_table(bench, rows):
+    heading = ("work", "this", "", "beside", "", "ratio", "wanted")
+    table = [heading] + report(bench, rows)
+    widths = [max(len(line[i]) for line in table) for i in range(len(heading))]
+    for line in table:
+        print("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip())
+    if "memory" in rows:
+        scene = field(bench, 100000, "distinct")
+        command = [BACKLIGHT, "render", scene, "-o", os.path.join(bench.folder, "picture.exr"), "-q", "-r", "1920x1080",
+                   *PLAIN]
+        begin = time.perf_counter()
+        megabytes = peak_megabytes(command)
+        print(f"100 000 spheres at 1920x1080, all velocities distinct: peak {megabytes:.0f} MB (wanted <= 400), "
+              f"{time.perf_counter() - begin:.1f} s")
+    if "startup" in rows:
+        whole = 1000 * bench.whole_seconds("one sphere, 64x64")
+        print(f"one sphere at 64x64, whole process: {whole:.1f} ms (wanted <= 20)")
+
+
+def main():
+    parser = argparse.ArgumentParser(add_help=False)
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("rows", nargs="*", metavar="ROW")
+    options = parser.parse_args()
+    unknown = [row for row in options.rows if row not in ROWS]
+    if unknown or options.rounds < 1:
+        sys.exit(f"bench: no row {unknown[0] if unknown else options.rounds}; there are: {' '.join(ROWS)}")
+    rows = options.rows or [row for row in ROWS if not (options.quick and row == "memory")]
+    begin = time.perf_counter()
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(folder, 2 if options.quick else options.rounds)
+        subjects(bench, rows)
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            cpu = re.search(r"model name\s*:\s*(.*)", file.read())
+        print(f"{cpu.group(1) if cpu else 'this machine'}, {os.cpu_count()} CPUs; medians of {bench.rounds} interleaved "
+              "runs, one thread unless said, tracing alone as each program tells it")
+        bench.measure()
+        print_table(bench, rows)
+        os.makedirs("out", exist_ok=True)
+        with open("out/bench.csv", "w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(("subject", "run", "traced_seconds", "process_seconds"))
+            for name, runs in bench.runs.items():
+                writer.writerows((name, i + 1, f"{t:.6f}", f"{w:.6f}") for i, (t, w) in enumerate(runs))
+    print(f"{time.perf_counter() - begin:.0f} s in all; out/bench.csv has every run")
+
+
+if __name__ == "__main__":
+    main()
