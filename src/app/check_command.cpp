@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "exit_codes.h"
 #include "scene_session.h"
+#include "strategy_words.h"
 
 namespace backlight {
 namespace {
@@ -39,7 +40,8 @@ int run(const CheckOptions& options) {
   }
   if (!session.check_camera_path(options.scene.request)) return session.exit_code();
   if (options.verbosity == Verbosity::quiet) return exit_success;
-  std::cout << explain(session.description(), *scene, needs_within_tolerance(*scene));
+  std::cout << explain(session.description(), *scene, needs_within_tolerance(*scene))
+            << strategy_lines(*scene, trace_strategy(*scene));
   if (frames.size() > 1) {
     std::cout << "No mistakes in " << checked.size() << " of its " << frames.size() << " frames.\n";
   }

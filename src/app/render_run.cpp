@@ -32,11 +32,11 @@ std::string details(const Scene& scene, const RenderSettings& settings, const Re
          " threads";
 }
 
-RenderSettings settings_for(const RenderOptions& options, const Scene& scene) {
+RenderSettings settings_for(const RenderOptions& options, const Scene& scene, const Needs& needs) {
   RenderSettings settings;
   settings.threads = options.threads > 0 ? options.threads : usable_threads();
   settings.crop = options.crop;
-  settings.wavelengths = needs_within_tolerance(scene).wavelengths;
+  settings.wavelengths = needs.wavelengths;
   settings.image_number = static_cast<std::int64_t>(std::floor(std::clamp(scene.frame, -1e15, 1e15)));
   return settings;
 }
@@ -44,6 +44,7 @@ RenderSettings settings_for(const RenderOptions& options, const Scene& scene) {
 void add(RenderStatistics& sum, const RenderStatistics& more) {
   sum.rays += more.rays;
   sum.samples += more.samples;
+  sum.strategy = more.strategy;
   sum.seconds += more.seconds;
   sum.threads = more.threads;
 }
@@ -224,7 +225,8 @@ RenderRun::Outcome RenderRun::make_or_explain(const PlannedImage& image, std::un
 
 RenderRun::Outcome RenderRun::make(const Scene& scene, const PlannedImage& image,
                                    std::unique_ptr<Claim> claim) {
-  const RenderSettings settings = settings_for(options_, scene);
+  Needs needs = needs_within_tolerance(scene);
+  const RenderSettings settings = settings_for(options_, scene, needs);
   const auto creation_time = source_date_epoch();
   if (!creation_time.ok()) return trouble(creation_time.error());
   const ExrHeader header =
@@ -247,8 +249,9 @@ RenderRun::Outcome RenderRun::make(const Scene& scene, const PlannedImage& image
                   ": another process took the claim over, which had expired; it will write the image");
     return Outcome::claimed_by_another;
   }
-  return deliver(scene, settings,
-                 {&image, std::move(partial), header, std::move(claim), statistics, {}, {}, {}});
+  return deliver(
+      scene, settings,
+      {&image, std::move(partial), header, std::move(claim), std::move(needs), statistics, {}, {}, {}});
 }
 
 void RenderRun::resume(const PlannedImage& image, PartialImage& partial) {
@@ -289,7 +292,8 @@ RenderRun::Outcome RenderRun::deliver(const Scene& scene, const RenderSettings& 
   const Image& image = delivery->partial.image;
   const std::filesystem::path& file = delivery->image->exr;
   delivery->faults = faults_of(image);
-  delivery->record = statistics_json(scene, settings, delivery->statistics, delivery->faults, file);
+  delivery->record =
+      statistics_json(scene, delivery->needs, settings, delivery->statistics, delivery->faults, file);
   delivery->details = details(scene, settings, delivery->statistics);
   const std::size_t bytes = image.channel_count() * image.plane(0).size_bytes();
   deliveries_.add(

@@ -57,6 +57,7 @@ class RenderRun {
     PartialImage partial;
     ExrHeader header;
     std::unique_ptr<Claim> claim;  ///< null: without
+    Needs needs;
     RenderStatistics statistics;
     ImageFaults faults;
     std::string record;   ///< the object of --stats

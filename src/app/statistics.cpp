@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "backlight/base/json_text.h"
+#include "strategy_words.h"
 
 namespace backlight {
 namespace {
@@ -17,6 +18,7 @@ class JsonObject {
  public:
   JsonObject& number(const char* name, double value) { return member(name, json_number(value)); }
   JsonObject& count(const char* name, std::uint64_t value) { return member(name, std::to_string(value)); }
+  JsonObject& json(const char* name, const std::string& value) { return member(name, value); }
   JsonObject& text(const char* name, const std::string& value) { return member(name, json_quoted(value)); }
   [[nodiscard]] std::string str() const { return "{" + members_ + "}"; }
 
@@ -30,7 +32,7 @@ class JsonObject {
 
 }  // namespace
 
-std::string statistics_json(const Scene& scene, const RenderSettings& settings,
+std::string statistics_json(const Scene& scene, const Needs& needs, const RenderSettings& settings,
                             const RenderStatistics& statistics, const ImageFaults& faults,
                             const std::filesystem::path& file) {
   const PixelBox whole{0, 0, scene.film.width, scene.film.height};
@@ -46,7 +48,14 @@ std::string statistics_json(const Scene& scene, const RenderSettings& settings,
     object.count("pixelsAtLimit", statistics.samples.at_limit);
   }
   object.text("model", settings.wavelengths > 0 ? "spectral" : "rgb")
-      .number("wavelengths", settings.wavelengths);
+      .number("wavelengths", settings.wavelengths)
+      .text("modelWhy", needs.why)
+      .text("wavelengthsWhy", needs.why_so_many);
+  object.count("frames", needs.frames).count("movingFrames", needs.moving_frames);
+  object.count("extendedFrames", needs.extended_frames).count("surfaces", needs.surfaces);
+  object.text("roots", in_words(needs.roots)).count("textures", needs.textures);
+  object.text("rays", statistics.strategy.rays).text("cameraCulling", in_words(statistics.strategy.camera));
+  object.json("shadowCulling", shadows_json(statistics.strategy));
   object.number("threads", statistics.threads).number("seconds", statistics.seconds);
   object.count("cameraRays", statistics.rays.primary).count("shadowRays", statistics.rays.shadow);
   object.count("dataRays", statistics.rays.data);

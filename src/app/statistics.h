@@ -8,11 +8,12 @@
 #include "backlight/base/result.h"
 #include "backlight/render/image_faults.h"
 #include "backlight/render/render.h"
+#include "backlight/scene/needs.h"
 
 namespace backlight {
 
 /// {"frame":3,"time":0.08,"file":"a.0003.exr",...}; docs/command-line.md lists the members.
-std::string statistics_json(const Scene& scene, const RenderSettings& settings,
+std::string statistics_json(const Scene& scene, const Needs& needs, const RenderSettings& settings,
                             const RenderStatistics& statistics, const ImageFaults& faults,
                             const std::filesystem::path& file);
 

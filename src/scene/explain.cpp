@@ -112,7 +112,18 @@ std::string model_words(const Needs& needs) {
                                           " wavelengths, " + needs.why_so_many
                                     : "red, green, blue: " + needs.why;
   text += needs.shadow_rays ? "; shadow rays" : "; no shadow rays";
-  text += needs.textures > 0 ? "; " + plural(needs.textures, "texture") : "; no textures";
+  text += needs.textures > 0 ? "; " + plural(needs.textures, "texture") + " by OpenImageIO"
+                             : "; no textures, OpenImageIO is not loaded";
+  return text;
+}
+
+std::string arithmetic_words(const Needs& needs) {
+  if (needs.moving_frames == 0) return "double precision; no boosts";
+  std::string text = "double precision; a ray is boosted into " + plural(needs.moving_frames, "frame");
+  if (needs.extended_frames > 0) {
+    text += ", and begins in extended precision in the " + std::to_string(needs.extended_frames) +
+            " of gamma > " + six_digits(robust_gamma);
+  }
   return text;
 }
 
@@ -135,6 +146,7 @@ std::string explain(const Description& description, const Scene& scene, const Ne
              " moving relative to the camera";
   line("objects", objects);
   text += frames_words(scene);
+  line("roots", in_words(needs.roots));
   line("lights", needs.lights == 0 ? "none" : plural(needs.lights, "light"));
   line("background", background_words(scene));
   line("effects", switch_words(scene.effects));
@@ -143,6 +155,7 @@ std::string explain(const Description& description, const Scene& scene, const Ne
                  ", " + six_digits(region.y1) + "]: " + switch_words(region.effects));
   }
   line("model", model_words(needs));
+  line("arithmetic", arithmetic_words(needs));
   return text;
 }
 

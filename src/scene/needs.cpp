@@ -92,6 +92,38 @@ void choose_model(const Scene& scene, Needs& needs) {
   }
 }
 
+void count_roots(const SceneFrame& frame, std::vector<RootSearch>& roots) {
+  for (std::size_t i = 0; i < frame.surfaces.size(); ++i) {
+    const Shape& shape = frame.surfaces.shape(static_cast<int>(i));
+    // Elsewhere the kind decides: no words are made for each of 100,000 spheres.
+    const bool differs_within_kind = shape.formula != nullptr || shape.solid != nullptr;
+    const auto is_like = [&](const RootSearch& search) {
+      return search.shape == shape.kind && (!differs_within_kind || search.how == root_finding(shape));
+    };
+    const auto found = std::ranges::find_if(roots, is_like);
+    if (found != roots.end()) {
+      ++found->surfaces;
+    } else {
+      roots.push_back({shape.kind, root_finding(shape), 1});
+    }
+  }
+}
+
+std::string plural_of(const RootSearch& search) {
+  const std::string shape{name(search.shape)};
+  const bool several = search.surfaces != 1;
+  switch (search.shape) {
+    case ShapeKind::implicit:
+      return several ? "implicit surfaces" : "implicit surface";
+    case ShapeKind::torus:
+      return several ? "tori" : "torus";
+    case ShapeKind::box:
+      return several ? "boxes" : "box";
+    default:
+      return several ? shape + 's' : shape;
+  }
+}
+
 }  // namespace
 
 Needs needs_of(const Scene& scene) {
@@ -99,8 +131,11 @@ Needs needs_of(const Scene& scene) {
   for (const SceneFrame& frame : scene.frames) {
     if (frame.object_of_surface.empty()) continue;
     ++needs.frames;
-    if (moves(frame.motion.celerity, scene.camera.celerity)) ++needs.moving_frames;
+    const RelativeMotion motion = relative_motion(frame.motion.celerity, scene.camera.celerity);
+    if (motion.speed > at_rest_celerity) ++needs.moving_frames;
+    if (motion.gamma > robust_gamma) ++needs.extended_frames;
     needs.surfaces += frame.object_of_surface.size();
+    count_roots(frame, needs.roots);
   }
   needs.objects = scene.objects.size();
   needs.lights = scene.lights.size();
@@ -110,11 +145,20 @@ Needs needs_of(const Scene& scene) {
   textures.insert(scene.sky.texture.get());
   textures.erase(nullptr);
   needs.textures = textures.size();
-  needs.shadow_rays =
-      needs.surfaces > 0 && std::any_of(scene.lights.begin(), scene.lights.end(),
-                                        [](const Light& l) { return l.kind != LightKind::ambient; });
+  needs.shadowing_lights = static_cast<std::size_t>(
+      std::ranges::count_if(scene.lights, [](const Light& l) { return l.kind != LightKind::ambient; }));
+  needs.shadow_rays = needs.surfaces > 0 && needs.shadowing_lights > 0;
   choose_model(scene, needs);
   return needs;
+}
+
+std::string in_words(const std::vector<RootSearch>& roots) {
+  std::string words;
+  for (const RootSearch& search : roots) {
+    if (!words.empty()) words += "; ";
+    words += std::to_string(search.surfaces) + ' ' + plural_of(search) + ": " + search.how;
+  }
+  return words.empty() ? "none" : words;
 }
 
 }  // namespace backlight

@@ -3,6 +3,8 @@
 #include <array>
 #include <numbers>
 
+#include "csg_solid.h"
+
 namespace backlight {
 namespace {
 
@@ -58,6 +60,27 @@ std::string_view name(RootFinder finder) {
       break;
   }
   return "CSG";
+}
+
+std::string root_finding(const Shape& shape) {
+  std::string words{name(root_finder(shape))};
+  if (!shape.solid) return words;
+  std::array<bool, 5> named{};
+  const char* before = " of ";
+  for (const Solid::Leaf& leaf : shape.solid->leaves()) {
+    const RootFinder finder = root_finder(leaf.surface.shape);
+    bool& known = named[static_cast<std::size_t>(finder)];
+    if (known) continue;
+    known = true;
+    words += before;
+    words += name(finder);
+    before = " and ";
+  }
+  return words;
+}
+
+std::string_view name(ShapeKind kind) {
+  return kind == ShapeKind::csg ? "solid" : methods(kind).name;
 }
 
 bool is_solid(const Shape& shape) {

@@ -73,6 +73,10 @@ std::size_t SurfaceSet::size() const {
   return surfaces_.size();
 }
 
+const Shape& SurfaceSet::shape(int surface) const {
+  return surfaces_[static_cast<std::size_t>(surface)].shape;
+}
+
 int SurfaceSet::add(const Shape& shape, const Placement& placement) {
   assert(problem(shape).empty() && problem(placement).empty());
   surfaces_.push_back(place(shape, placement));

@@ -102,6 +102,13 @@ RootFinder root_finder(const Shape& shape);
 /// "closed form", "quartic", "interval + derivative", "reduced affine", "CSG".
 std::string_view name(RootFinder finder);
 
+/// The name of the shape's root finder; of a solid those of its parts too, each once: "CSG of closed form and
+/// reduced affine".
+std::string root_finding(const Shape& shape);
+
+/// As in a scene file: "sphere"; "solid" for what is made of several.
+std::string_view name(ShapeKind kind);
+
 /// What is wrong with the shape ("radius must be positive and finite"), or an empty text.
 std::string problem(const Shape& shape);
 

@@ -78,6 +78,9 @@ class SurfaceSet {
 
   [[nodiscard]] std::size_t size() const;
 
+  /// A surface's shape, as add() took it.
+  [[nodiscard]] const Shape& shape(int surface) const;
+
   /// The smallest λ in (0, lambda_limit) at which the ray meets a surface; of equal λ, the smallest index.
   [[nodiscard]] Hit nearest(const Vec3& origin, const Vec3& direction,
                             double lambda_limit = std::numeric_limits<double>::infinity(),

@@ -86,24 +86,57 @@ TEST(SceneNeeds, CopiesAreSurfaces) {
   EXPECT_EQ(n.surfaces, 6U);
 }
 
+TEST(SceneNeeds, NamesTheRootFinderOfEverySurface) {
+  const std::string formula = "[[object]]\nshape = \"implicit\"\nbounds = [[-2, -2, -2], [2, 2, 2]]\nf = ";
+  const std::string torus = "[[object]]\nshape = \"torus\"\nmajor = 2\nminor = 1\n";
+  const std::string solid =
+      "[[object]]\nshape = \"difference\"\n[[object.part]]\nshape = \"torus\"\nmajor = 2\nminor = 1\n"
+      "[[object.part]]\nshape = \"box\"\nsize = [1, 1, 1]\n[[object.part]]\nshape = \"sphere\"\nradius = 1\n";
+  const Needs n = needs(camera + sphere + "repeat = { count = [3, 2, 1], step = [3, 3, 3] }\n" + torus +
+                        solid + formula + "\"x^4 + y^4 + z^4 - 1\"\n" + sphere);
+  ASSERT_EQ(n.roots.size(), 4U);
+  EXPECT_EQ(n.roots[0].surfaces, 7U);
+  EXPECT_EQ(n.roots[3].shape, ShapeKind::implicit);
+  EXPECT_EQ(in_words(n.roots),
+            "7 spheres: closed form; 1 torus: quartic; 1 solid: CSG of quartic and closed form; "
+            "1 implicit surface: " +
+                n.roots[3].how);
+  EXPECT_EQ(in_words({}), "none");
+}
+
+TEST(SceneNeeds, ExtendedPrecisionIsForFastFramesAlone) {
+  const auto at_gamma = [](const std::string& gamma) {
+    return needs(camera + sphere + "gamma = " + gamma + "\nalong = [0, 1, 0]\n").extended_frames;
+  };
+  EXPECT_EQ(at_gamma("29"), 0U);
+  EXPECT_EQ(at_gamma("31"), 1U);
+  // What counts is the motion against the camera.
+  EXPECT_EQ(needs("[camera]\nbeta = [0, 0.9998, 0]\n" + sphere + "beta = [0, 0.9998, 0]\n").extended_frames,
+            0U);
+}
+
 TEST(SceneExplain, SaysWhatThereIs) {
   const std::string text = "c = 2\n[film]\nresolution = [64, 48]\naovs = [\"Z\", \"P\"]\n" + camera + moving +
                            lamp + "[effects]\nrate = \"dilation\"\n";
   const ReadResult read = read_scene_text(text, "tram.toml");
-  EXPECT_EQ(explain(*read.description, compiled(text), needs(text)),
-            "tram.toml: at t = 0 s with c = 2\n"
-            "  image      64 x 48 pixels, 1 sample each; AOVs Z and P\n"
-            "  camera     perspective, 60 degrees wide; at rest\n"
-            "             exposed at its own time 0 s, world time 0 s, at [0, 0, -5]\n"
-            "  objects    1 object in 1 frame, 1 moving relative to the camera\n"
-            "  frame of 'tram': 0.5 c (gamma = 1.1547) along [1, 0, 0]; 1 surface\n"
-            "  lights     1 light\n"
-            "  background black\n"
-            "  effects    light delay on, colour shift on, brightness D (energy) x gamma (rate) x D^2 (solid "
-            "angle)\n"
-            "  model      spectral: object 'tram' moves relative to the camera; " +
-                std::to_string(needs(text).wavelengths) +
-                " wavelengths, the default, enough for any colours; shadow rays; no textures\n");
+  EXPECT_EQ(
+      explain(*read.description, compiled(text), needs(text)),
+      "tram.toml: at t = 0 s with c = 2\n"
+      "  image      64 x 48 pixels, 1 sample each; AOVs Z and P\n"
+      "  camera     perspective, 60 degrees wide; at rest\n"
+      "             exposed at its own time 0 s, world time 0 s, at [0, 0, -5]\n"
+      "  objects    1 object in 1 frame, 1 moving relative to the camera\n"
+      "  frame of 'tram': 0.5 c (gamma = 1.1547) along [1, 0, 0]; 1 surface\n"
+      "  roots      1 sphere: closed form\n"
+      "  lights     1 light\n"
+      "  background black\n"
+      "  effects    light delay on, colour shift on, brightness D (energy) x gamma (rate) x D^2 (solid "
+      "angle)\n"
+      "  model      spectral: object 'tram' moves relative to the camera; " +
+          std::to_string(needs(text).wavelengths) +
+          " wavelengths, the default, enough for any colours; shadow rays; no textures, OpenImageIO is not "
+          "loaded\n"
+          "  arithmetic double precision; a ray is boosted into 1 frame\n");
 }
 
 TEST(SceneExplain, NearTheSpeedOfLightSaysWhatIsMissing) {

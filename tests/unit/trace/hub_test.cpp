@@ -43,6 +43,31 @@ TEST(Hub, HasTheCameraEventInEachFrame) {
   EXPECT_DOUBLE_EQ(hub.frames[2].camera_event.x.z, -10.0);
 }
 
+// What nothing moves against needs no boost: the transformation hands its argument on, to the bit.
+TEST(Hub, BoostsNothingWhereNothingMoves) {
+  for (const Vec3& celerity : {Vec3{0.0}, Vec3{0.3, -2.0, 1.1}}) {  // at rest, and all with one velocity
+    Scene scene;
+    for (int i = 0; i < 3; ++i) scene.frames.push_back(frame_of(celerity, {0.0, 0.0, 5.0 * i}, 1.0));
+    scene.camera.celerity = ExtendedVec3{celerity};
+    scene.lights.resize(2);
+    scene.lights[1].kind = LightKind::distant;
+    const Hub hub = make_hub(scene);
+    for (const FrameView& frame : hub.frames) EXPECT_TRUE(frame.from_camera.is_identity());
+    for (const LightView& light : hub.lights) {
+      for (const auto& to_frame : light.to_frame) EXPECT_TRUE(to_frame.is_identity());
+    }
+    EXPECT_TRUE(hub.camera_from_sky.is_identity());
+    const NullDirection<Camera> n{{0.1, 0.7, -0.4}, 0.8124038404635961};
+    const NullDirection<Rest> same = hub.frames[1].from_camera(n);
+    EXPECT_EQ(same.x, n.x);
+    EXPECT_EQ(same.length, n.length);
+  }
+  Scene moving = two_spheres();
+  moving.lights.resize(1);
+  EXPECT_FALSE(make_hub(moving).frames[1].from_camera.is_identity());
+  EXPECT_FALSE(make_hub(moving).lights[0].to_frame[1].is_identity());
+}
+
 TEST(FirstHit, IsTheSmallestLambdaOverFrames) {
   const Scene scene = two_spheres();
   const Hub hub = make_hub(scene);
