@@ -155,13 +155,14 @@ Key length(std::string_view name, DefaultValue value, std::string_view meaning, 
   return number(name, std::move(value), "length", meaning, range);
 }
 
-Key unresolved() {
+Key unresolved(const std::string& whose = {}) {
   return choice(
       "unresolved", std::string("take"), {"take", "skip"},
-      "What becomes of a root that cannot be isolated to full precision: one of even multiplicity, where "
-      "the surface is only touched, or so near to another that rounding hides which. `take`: it is "
-      "seen; `skip`: the ray goes on. They are counted in `--stats` and shown by the channel "
-      "`unresolved`.");
+      whose +
+          "What becomes of a root that cannot be isolated to full precision: one of even multiplicity, where "
+          "the surface is only touched, or so near to another that rounding hides which. `take`: it is "
+          "seen; `skip`: the ray goes on. They are counted in `--stats` and shown by the channel "
+          "`unresolved`.");
 }
 
 std::vector<KeyTable> shapes() {
@@ -251,7 +252,7 @@ std::vector<KeyTable> shapes() {
          points("bounds", 2, "length",
                 "Of a blend, as an implicit surface's. Without it they are proved, or else are those of its "
                 "parts together, where those are written."),
-         unresolved()});
+         unresolved("Of a blend; formulas among other parts have their own. ")});
   solid("object.intersection",
         "What all parts have in common. Solids that only touch have nothing in common.", {});
   solid("object.difference",

@@ -7,201 +7,22 @@
 #include <cmath>
 
 #include "csg_solid.h"
+#include "csg_sweep.h"
 #include "shape_table.h"
 #include "surface_point.h"
 
 namespace backlight {
 namespace {
 
-/// Rounding of sums of a few terms, relative to the largest of them.
-constexpr double rounding_room = 4e-15;
-
-/// A crossing of one part, at t along the line of the whole.
-struct Event {
-  double t;
-  int leaf;
-  int sequence;
-  bool touch;
-  Crossing crossing;  ///< along the part's own line
-};
-
-/// What a thread needs for one line; used again for the next.
-struct Scratch {
-  SolidProfile profile;
-  std::vector<Event> events;
-  std::vector<char> leaf_inside;
-  std::vector<int> count;  ///< of each operation: how many of the parts that count together are inside
-  std::vector<char> first_inside;  ///< of a difference: whether its first part is
-};
-
-/// Who is inside what, as the line goes on.
-class Insides {
- public:
-  Insides(const Solid& solid, Scratch& scratch) : solid_(solid), s_(scratch) {
-    s_.leaf_inside.assign(solid.leaves().size(), 0);
-    s_.count.assign(solid.nodes().size(), 0);
-    s_.first_inside.assign(solid.nodes().size(), 0);
-  }
-
-  [[nodiscard]] bool whole() const { return whole_; }
-
-  void toggle(int leaf) {
-    const Solid::Leaf& part = solid_.leaves()[static_cast<std::size_t>(leaf)];
-    char& inside = s_.leaf_inside[static_cast<std::size_t>(leaf)];
-    inside = inside == 0 ? 1 : 0;
-    bool now = inside != 0;
-    bool first = part.first;
-    for (int node = part.parent; node >= 0;) {
-      const bool before = value(node);
-      set_part(node, first, now);
-      const bool after = value(node);
-      if (before == after) return;
-      const Solid::Node& operation = solid_.nodes()[static_cast<std::size_t>(node)];
-      now = after;
-      first = operation.first;
-      node = operation.parent;
-    }
-    whole_ = now;
-  }
-
- private:
-  [[nodiscard]] bool value(int node) const {
-    const auto i = static_cast<std::size_t>(node);
-    switch (solid_.nodes()[i].operation) {
-      case SolidOperation::unite:
-        return s_.count[i] > 0;
-      case SolidOperation::intersect:
-        return s_.count[i] == solid_.nodes()[i].parts;
-      case SolidOperation::difference:
-        break;
-    }
-    return s_.first_inside[i] != 0 && s_.count[i] == 0;
-  }
-
-  void set_part(int node, bool first, bool inside) {
-    const auto i = static_cast<std::size_t>(node);
-    if (first && solid_.nodes()[i].operation == SolidOperation::difference) {
-      s_.first_inside[i] = inside ? 1 : 0;
-    } else {
-      s_.count[i] += inside ? 1 : -1;
-    }
-  }
-
-  const Solid& solid_;
-  Scratch& s_;
-  bool whole_ = false;
-};
-
-/// Whether the line can meet the bounding sphere of a part. Rounding never makes it say no where the answer
-/// is yes.
-bool may_meet(const LocalLine& line, const PlacedSurface& part) {
-  if (std::isinf(part.radius)) return true;
-  const Vec3 from = line.point - part.placement.position();
-  const Vec3 off = from - glm::dot(from, line.direction) * line.direction;
-  const double reach = part.radius + rounding_room * (std::abs(from.x) + std::abs(from.y) + std::abs(from.z));
-  return glm::dot(off, off) <= reach * reach;
-}
-
-class Sweep {
- public:
-  Sweep(const Solid& solid, const LocalLine& line, Scratch& scratch)
-      : solid_(solid),
-        line_(line),
-        ray_(line.point, line.direction, line.clock),
-        s_(scratch),
-        insides_(solid, scratch) {
-    s_.events.clear();
-    for (std::size_t i = 0; i < solid.leaves().size(); ++i) add_part(static_cast<int>(i));
-    std::sort(s_.events.begin(), s_.events.end(), [](const Event& a, const Event& b) {
-      return a.t != b.t ? a.t < b.t : a.leaf != b.leaf ? a.leaf < b.leaf : a.sequence < b.sequence;
-    });
-  }
-
-  /// Calls visit(event) for every crossing of the boundary of the whole, in order; true: stop.
-  template <class Visit>
-  void boundary(const Visit& visit) {
-    const std::vector<Event>& events = s_.events;
-    for (std::size_t i = 0; i < events.size();) {
-      const bool before = insides_.whole();
-      std::size_t chosen = i;
-      std::size_t next = i + 1;
-      insides_.toggle(events[i].leaf);
-      if (events[i].touch) {
-        const bool changes = insides_.whole() != before;
-        insides_.toggle(events[i].leaf);
-        if (changes && visit(events[i])) return;
-        i = next;
-        continue;
-      }
-      while (next < events.size() && coincide(events[next - 1], events[next])) {
-        if (events[next].leaf < events[chosen].leaf) chosen = next;
-        insides_.toggle(events[next++].leaf);
-      }
-      if (insides_.whole() != before && visit(events[chosen])) return;
-      i = next;
-    }
-  }
-
-  /// The part's surface point of an event, in the coordinates of the whole.
-  [[nodiscard]] SurfacePoint point(const Event& event) const {
-    const PlacedSurface& part = solid_.leaves()[static_cast<std::size_t>(event.leaf)].surface;
-    return surface_point(part, local_line(ray_, part), event.crossing);
-  }
-
- private:
-  void add_part(int leaf) {
-    const PlacedSurface& part = solid_.leaves()[static_cast<std::size_t>(leaf)].surface;
-    if (!may_meet(line_, part)) return;
-    const LocalLine line = local_line(ray_, part);
-    const auto add = [&](const Crossing& crossing, bool touch) {
-      s_.events.push_back(
-          {line.lambda(crossing.t), leaf, static_cast<int>(s_.events.size()), touch, crossing});
-    };
-    const auto profile = methods(part.shape).profile;
-    if (profile != nullptr) {
-      s_.profile.clear();
-      profile(part.shape, line, s_.profile);
-      if (s_.profile.inside_before) insides_.toggle(leaf);
-      for (const SolidProfile::Event& event : s_.profile.events) add(event.crossing, event.touch);
-      return;
-    }
-    const Crossings found = crossings(part.shape, line, -infinite, Wanted::all);
-    if (found.inside_before) insides_.toggle(leaf);
-    for (int i = 0; i < found.count; ++i) add(found.list[i], false);
-  }
-
-  /// Whether two parts have a common face here: their points are as near to each other, across the face, as
-  /// their errors allow, and the normals are parallel.
-  [[nodiscard]] bool coincide(const Event& a, const Event& b) const {
-    constexpr double least_cosine = 1e-10;  // of rays that still see both faces as one
-    constexpr double parallel = 1e-6;
-    if (a.leaf == b.leaf || b.touch) return false;
-    const double gap = b.t - a.t;
-    const double size = size_of(a.leaf) + size_of(b.leaf) + glm::length(line_.at(a.t));
-    if (gap * least_cosine > rounding_room * size) return false;
-    const SurfacePoint one = point(a);
-    const SurfacePoint other = point(b);
-    const double across = gap * std::min(std::abs(glm::dot(one.normal, line_.direction)),
-                                         std::abs(glm::dot(other.normal, line_.direction)));
-    return across <= one.error_bound + other.error_bound &&
-           glm::length(glm::cross(one.normal, other.normal)) <= parallel;
-  }
-
-  [[nodiscard]] double size_of(int leaf) const {
-    const PlacedSurface& part = solid_.leaves()[static_cast<std::size_t>(leaf)].surface;
-    return std::isfinite(part.radius) ? part.radius + glm::length(part.placement.position()) : 0.0;
-  }
-
-  const Solid& solid_;
-  const LocalLine& line_;
-  RestRay ray_;
-  Scratch& s_;
-  Insides insides_;
-};
+/// `part` of a crossing of the whole: the part of the leaf that was hit, and which leaf that is, and whether
+/// its normal is turned.
+constexpr int parts_of_leaf = 8;
+constexpr int is_turned = parts_of_leaf;
+constexpr int codes_of_leaf = 2 * parts_of_leaf;
 
 // Sizes settle after the first few lines; from then on nothing is allocated.
-Scratch& scratch_of_thread() {
-  thread_local Scratch scratch;
+Sweep::Scratch& scratch_of_thread() {
+  thread_local Sweep::Scratch scratch;
   return scratch;
 }
 
@@ -223,32 +44,41 @@ double half_extent(const Shape& shape, const Extent& e) {
 
 Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted /*wanted*/) {
   Crossings result;
-  Sweep(*shape.solid, line, scratch_of_thread()).boundary([&](const Event& event) {
-    if (!(line.lambda(event.t) > lambda_min)) return false;
-    result.list[result.count++] = {event.t, 0, event.crossing.unresolved};
-    return true;
-  });
+  Sweep sweep(*shape.solid, line, parameter_of(line, lambda_min), scratch_of_thread());
+  for (Sweep::Event event; result.count == 0 && sweep.next(event);) {
+    if (!(line.lambda(event.t) > lambda_min)) continue;
+    const int code = event.leaf * codes_of_leaf + (event.turned ? is_turned : 0) + event.crossing.part;
+    result.list[result.count++] = {event.t, code, event.crossing.unresolved};
+  }
   return result;
 }
 
+/// The crossing of a leaf that is at t along its line or, as rounding goes, next to it. That of a formula is
+/// put onto its surface by surface_point anyhow.
+Crossing crossing_at(const PlacedSurface& leaf, const LocalLine& line, const Crossing& near) {
+  if (methods(leaf.shape).begin_walk != nullptr) return near;
+  const Crossings found = crossings(leaf.shape, line, -infinite, Wanted::all);
+  const auto* const nearest = std::min_element(
+      found.list, found.list + found.count,
+      [&](const Crossing& a, const Crossing& b) { return std::abs(a.t - near.t) < std::abs(b.t - near.t); });
+  return nearest == found.list + found.count ? near : *nearest;
+}
+
 LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
-  Sweep sweep(*shape.solid, line, scratch_of_thread());
+  const Solid::Leaf& leaf = shape.solid->leaves()[static_cast<std::size_t>(crossing.part / codes_of_leaf)];
+  const LocalLine part = local_line(RestRay(line.point, line.direction, line.clock), leaf.surface);
+  const SurfacePoint point = surface_point(
+      leaf.surface, part,
+      crossing_at(leaf.surface, part,
+                  {parameter_of(part, crossing.t), crossing.part % parts_of_leaf, crossing.unresolved}));
   LocalPoint result;
-  double nearest = infinite;
-  sweep.boundary([&](const Event& event) {
-    const double off = std::abs(event.t - crossing.t);
-    if (!(off < nearest)) return false;
-    nearest = off;
-    const SurfacePoint point = sweep.point(event);
-    const Solid::Leaf& leaf = shape.solid->leaves()[static_cast<std::size_t>(event.leaf)];
-    result.position = point.position;
-    result.gradient = leaf.subtracted ? -point.normal : point.normal;
-    result.u = point.u;
-    result.v = point.v;
-    result.error = point.error_bound;
-    result.member = leaf.surface.shape.blend ? point.member : leaf.member;
-    return off == 0.0;
-  });
+  result.position = point.position;
+  const bool turned = (crossing.part & is_turned) != 0;
+  result.gradient = leaf.subtracted != turned ? -point.normal : point.normal;
+  result.u = point.u;
+  result.v = point.v;
+  result.error = point.error_bound;
+  result.member = leaf.surface.shape.blend ? point.member : leaf.member;
   return result;
 }
 

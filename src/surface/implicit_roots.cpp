@@ -34,7 +34,7 @@ VariableLine variables_of(const FormulaLine& line) {
 
 }  // namespace
 
-RootWalk::RootWalk(const ImplicitFormula& f, const FormulaLine& line, double from, double to)
+RootWalk::RootWalk(const ImplicitFormula& f, const FormulaLine& line, double from, double to, Jumps jumps)
     : f_(f),
       line_(line),
       from_(from),
@@ -43,6 +43,7 @@ RootWalk::RootWalk(const ImplicitFormula& f, const FormulaLine& line, double fro
       end_(to),
       a_(from),
       step_(0.0),
+      jumps_(jumps),
       cells_left_(most_cells) {
   if (!(from <= to)) {
     a_ = end_ = from;
@@ -55,6 +56,7 @@ RootWalk::RootWalk(const ImplicitFormula& f, const FormulaLine& line, double fro
   at_a_ = at(a_);
   step_ = end_ - start_;
   sign_at_start_ = at_a_.sign;
+  negative_ = at_a_.sign < 0;
 }
 
 /// The middle of a cell that is divided is the end of the next one: it is not looked at twice.
@@ -211,7 +213,21 @@ bool RootWalk::hidden_by_rounding(double to) {
          hidden_at(a_ + 0.8090169943749475 * length);
 }
 
+/// Whether f has become negative, or ceased to be, without a root, from `at` on.
+bool RootWalk::jumped(double at, Root& root) {
+  const bool negative = at_a_.sign < 0;
+  if (jumps_ == Jumps::ignore || in_zone_ || negative == negative_) return false;
+  root = {at, RootKind::jump, negative_ ? -1 : 0, at_a_.sign, at, a_};
+  return true;
+}
+
 bool RootWalk::next(Root& root) {
+  if (!find(root)) return false;
+  negative_ = root.sign_after < 0;
+  return true;
+}
+
+bool RootWalk::find(Root& root) {
   if (held_) {
     root = held_root_;
     held_ = false;
@@ -227,10 +243,17 @@ bool RootWalk::next(Root& root) {
     const double length = to - a_;
     const bool fine =
         in_zone_ && length <= 0.25 * (zone_core_ - zone_start_) && a_ - zone_core_ < zone_core_ - zone_start_;
+    const double begin = a_;
     const Verdict verdict = try_cell(to, root);
-    if (verdict == Verdict::advanced) continue;
+    if (verdict == Verdict::advanced) {
+      if (jumped(begin, root)) return true;
+      continue;
+    }
     if (verdict == Verdict::crossing) {
-      if (root.t < from_ || root.t > to_) continue;
+      if (root.t < from_ || root.t > to_) {
+        negative_ = root.sign_after < 0;
+        continue;
+      }
       held_root_ = root;
       held_ = in_zone_ && end_zone(root);  // the unresolved one comes first
       if (!held_) root = held_root_;
@@ -248,6 +271,7 @@ bool RootWalk::next(Root& root) {
       add_to_zone(to, there, smallest || !fine);
     }
     advance(to, there);
+    if (jumped(begin, root)) return true;
   }
   return in_zone_ && end_zone(root);
 }

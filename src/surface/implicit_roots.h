@@ -20,9 +20,13 @@ struct FormulaLine {
 };
 
 enum class RootKind : std::uint8_t {
-  crossing,   ///< one root, of which the sign of f before and after is certain
-  unresolved  ///< f is so close to 0 over the enclosure that rounding hides whether, or how often, it is 0
+  crossing,    ///< one root, of which the sign of f before and after is certain
+  unresolved,  ///< f is so close to 0 over the enclosure that rounding hides whether, or how often, it is 0
+  jump         ///< no root: f becomes negative, or ceases to be, at a pole, a jump or the edge of its domain
 };
+
+/// Whether RootWalk tells of jumps.
+enum class Jumps : std::uint8_t { ignore, report };
 
 /// A root at s = t.
 struct Root {
@@ -63,6 +67,9 @@ void first_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, st
 /// The same of one piece.
 Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to);
 
+/// Adds a root to what roots_solved_by_this_thread() says (surface/implicit_surface.h).
+void count_root_solved();
+
 /// How much work the last search was; for tests and charts.
 struct RootWork {
   std::size_t cells = 0;   ///< pieces of the line over which f and its slope were enclosed
@@ -73,7 +80,8 @@ struct RootWork {
 /// Walks the roots one after the other: `next` finds the first one beyond those found before.
 class RootWalk {
  public:
-  RootWalk(const ImplicitFormula& f, const FormulaLine& line, double from, double to);
+  RootWalk(const ImplicitFormula& f, const FormulaLine& line, double from, double to,
+           Jumps jumps = Jumps::ignore);
 
   /// False: there are no more.
   bool next(Root& root);
@@ -103,6 +111,8 @@ class RootWalk {
   void add_to_zone(double to, const PointValue& there, bool core);
   Root polished(double low, double high, int sign_low) const;
   [[nodiscard]] bool wanted(const Root& root) const { return root.upper >= from_ && root.lower <= to_; }
+  bool find(Root& root);
+  bool jumped(double at, Root& root);
   enum class Verdict { advanced, crossing, split };
   Verdict try_cell(double to, Root& root);
   bool hidden_by_rounding(double to);
@@ -118,6 +128,8 @@ class RootWalk {
       {{std::numeric_limits<double>::quiet_NaN(), {}}, {std::numeric_limits<double>::quiet_NaN(), {}}}};
   std::size_t next_recent_ = 0;
   int sign_at_start_ = 0;
+  const Jumps jumps_;
+  bool negative_ = false;  // f, behind what was told last
   // An unresolved root that is being collected. Close behind its last cell, rounding may hide f again: only a
   // gap of its own length ends it.
   bool in_zone_ = false;

@@ -8,6 +8,7 @@
 #include "convex.h"
 #include "implicit_roots.h"
 #include "shape_table.h"
+#include "solid_walk.h"
 
 namespace backlight {
 namespace {
@@ -156,27 +157,9 @@ Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_
   return walk_along(shape, line, stretch.in, stretch.out, lambda_min, wanted);
 }
 
-/// Where the bounds cut the inside, they close it.
-void profile_of(const Shape& shape, const LocalLine& line, SolidProfile& profile) {
-  profile.clear();
-  const Stretch stretch = inside_bounds(shape, line);
-  if (!(stretch.in < stretch.out)) return;
-  bool inside = false;
-  const auto become = [&](bool now, double t, int part) {
-    if (now != inside) profile.events.push_back({{t, part, false}, false});
-    inside = now;
-  };
-  RootWalk walk(*shape.formula, formula_line(shape, line), stretch.in, stretch.out);
-  become(walk.sign_at_start() < 0, stretch.in, stretch.part_in);
-  for (Root root; walk.next(root);) {
-    ++roots_solved;
-    const bool now = root.sign_after < 0;
-    // At the edge of a domain or behind a jump f may have changed its sign without a root.
-    become(root.sign_before < 0, root.lower, 0);
-    if (now != inside || !skipped(shape, root)) profile.events.push_back({crossing_of(root), now == inside});
-    inside = now;
-  }
-  become(false, stretch.out, stretch.part_out);
+void begin_walk(const Shape& shape, const LocalLine& line, double from, SolidWalk& walk) {
+  walk.begin(*shape.formula, formula_line(shape, line), inside_bounds(shape, line), from,
+             shape.values[skips] == 0.0);
 }
 
 /// From 0 at +y to 1 at -y.
@@ -238,10 +221,14 @@ RootFinder finder_of(const Shape& /*shape*/) {
 
 const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",         true,         problem_of,
                                     radius_of,           extent_of,          crossings_of, point_of,
-                                    profile_of,          first_crossings_of, finder_of};
+                                    begin_walk,          first_crossings_of, finder_of};
 
 std::uint64_t roots_solved_by_this_thread() {
   return roots_solved;
+}
+
+void count_root_solved() {
+  ++roots_solved;
 }
 
 Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high) {

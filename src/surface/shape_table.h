@@ -8,12 +8,13 @@
 #include <limits>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "backlight/surface/shape.h"
 #include "local_line.h"
 
 namespace backlight {
+
+class SolidWalk;
 
 /// A crossing at line.at(t).
 struct Crossing {
@@ -35,22 +36,6 @@ struct Crossings {
 /// Which crossings are wanted. `first`: solvers may leave out those with λ <= lambda_min, and those behind
 /// the first of the others; what they do report is the same to the last bit. `all`: the whole line.
 enum class Wanted { first, all };
-
-/// The whole line's crossings of a solid, however many: what CSG merges.
-struct SolidProfile {
-  bool inside_before = false;
-  /// At a `touch` the line meets the surface without getting to its other side.
-  struct Event {
-    Crossing crossing;
-    bool touch = false;
-  };
-  std::vector<Event> events;  ///< in order of t
-
-  void clear() {
-    inside_before = false;
-    events.clear();
-  }
-};
 
 /// A point put onto the surface, in local coordinates. The gradient points outward and has any length.
 struct LocalPoint {
@@ -86,8 +71,9 @@ struct ShapeMethods {
   Crossings (*crossings)(const Shape&, const LocalLine&, double lambda_min, Wanted);
   /// The point of a crossing that `crossings` reported for this line.
   LocalPoint (*point)(const Shape&, const LocalLine&, const Crossing&);
-  /// All crossings of a shape that may have more than four; null: `crossings` reports them.
-  void (*profile)(const Shape&, const LocalLine&, SolidProfile&);
+  /// Begins the walk over the crossings of a shape that may have more than four; it may leave out those
+  /// before the line's parameter `from`. Null: `crossings` reports them all.
+  void (*begin_walk)(const Shape&, const LocalLine&, double from, SolidWalk&);
   /// The first crossings of many lines at once, each as `crossings` would report it; null: one by one.
   void (*first_crossings)(const Shape&, std::span<const LocalLine>, double lambda_min, std::span<Crossings>);
   /// How crossings are found; null: in closed form.

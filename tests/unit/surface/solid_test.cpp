@@ -8,9 +8,14 @@
 #include <random>
 
 #include "backlight/surface/surface_set.h"
+#include "solid_oracle.h"
 
 namespace backlight {
 namespace {
+
+using testing::Choices;
+using testing::some_solid;
+using testing::wrong_along;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -41,119 +46,33 @@ Seen look(const SurfaceSet& set, const Vec3& origin, const Vec3& direction) {
   return {hit, hit.found() ? set.resolve(hit, origin, direction) : SurfacePoint{}};
 }
 
-// The other way to say what is inside: the inequalities of the shapes, and and, or, not.
-bool inside(const Shape& shape, const Vec3& p) {
-  const auto& v = shape.values;
-  const double rho = std::hypot(p.x, p.z);
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      return glm::length(p) < v[0];
-    case ShapeKind::box:
-      return std::abs(p.x) < v[0] / 2 && std::abs(p.y) < v[1] / 2 && std::abs(p.z) < v[2] / 2;
-    case ShapeKind::cylinder:
-      return rho < v[0] && std::abs(p.y) < v[1] / 2;
-    case ShapeKind::torus:
-      return std::hypot(rho - v[0], p.y) < v[1];
-    case ShapeKind::plane:
-      return p.y < 0.0;
-    case ShapeKind::quadric:
-      return v[0] * p.x * p.x + v[1] * p.y * p.y + v[2] * p.z * p.z + v[9] < 0.0;
-    default:
-      ADD_FAILURE() << "no inequality for this shape";
-      return false;
-  }
-}
-
-bool inside(const SolidTree& tree, const Vec3& outer) {
-  const Vec3 p = tree.placement.local_from_rest() * (outer - tree.placement.position());
-  if (tree.parts.empty()) return inside(tree.shape, p);
-  bool result = inside(tree.parts[0], p);
-  for (std::size_t i = 1; i < tree.parts.size(); ++i) {
-    const bool other = inside(tree.parts[i], p);
-    if (tree.operation == SolidOperation::unite) result = result || other;
-    if (tree.operation == SolidOperation::intersect) result = result && other;
-    if (tree.operation == SolidOperation::difference) result = result && !other;
-  }
-  return result;
-}
-
-class Random {
+class Random final : public Choices {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) {
+  double uniform(double low, double high) override {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
-  int below(int count) { return static_cast<int>(engine_() % static_cast<unsigned>(count)); }
-  Vec3 vector(double half) {
-    const double x = uniform(-half, half);
-    const double y = uniform(-half, half);
-    return {x, y, uniform(-half, half)};
-  }
-
-  Shape shape() {
-    const double a = uniform(0.3, 1.0);
-    const double b = uniform(0.3, 1.0);
-    switch (below(6)) {
-      case 0:
-        return sphere(a);
-      case 1:
-        return box({a, 2 * b, 1.0});
-      case 2:
-        return cylinder(a, 2 * b);
-      case 3:
-        return torus(a, 0.6 * a * b);
-      case 4:
-        return plane();
-      default:
-        return quadric({1, below(2) == 0 ? 1.0 : -b, 0.5, 0, 0, 0, 0, 0, 0, -a * a});
-    }
-  }
-  SolidTree tree(int depth) {
-    const Placement placement(vector(0.6), vector(180.0), Vec3{uniform(0.6, 1.4), uniform(0.6, 1.4), 1.0});
-    if (depth == 0 || below(4) == 0) return part(shape(), placement, below(5));
-    SolidTree node = combined(static_cast<SolidOperation>(below(3)), {}, placement);
-    const int parts = 1 + below(4);
-    for (int i = 0; i < parts; ++i) node.parts.push_back(tree(depth - 1));
-    return node;
-  }
+  int below(int count) override { return static_cast<int>(engine_() % static_cast<unsigned>(count)); }
 
  private:
   std::mt19937_64 engine_;
 };
 
-// Along each ray, hit after hit: between two of them membership never changes, across each it does, and the
-// normal points to the outside.
 TEST(Solid, BoundaryIsWhereMembershipChanges) {
   Random random(7);
-  int hits = 0;
+  testing::Looked looked;
   for (int i = 0; i < 400; ++i) {
-    const SolidTree tree = combined(static_cast<SolidOperation>(i % 3), {random.tree(2), random.tree(2)});
+    const SolidTree tree =
+        combined(static_cast<SolidOperation>(i % 3), {some_solid(random, 2), some_solid(random, 2)});
     const SurfaceSet set = set_of(tree);
     for (int j = 0; j < 40; ++j) {
       const Vec3 origin = random.vector(1.5);
       const Vec3 direction = glm::normalize(random.vector(1.0));
-      double from = 0.0;
-      for (int k = 0; k < 12 && from < 12.0; ++k) {
-        const Hit hit = set.nearest(origin + from * direction, direction);
-        const double to = std::min(hit.found() ? from + hit.lambda : infinity, 12.0);
-        const bool state = inside(tree, origin + 0.5 * (from + to) * direction);
-        for (int m = 1; m < 32; ++m) {
-          EXPECT_EQ(inside(tree, origin + (from + (to - from) * m / 32.0) * direction), state);
-        }
-        if (!hit.found() || to == 12.0 || to - from < 1e-9) break;
-        const SurfacePoint point = set.resolve(hit, origin + from * direction, direction);
-        EXPECT_LE(glm::length(point.position - (origin + to * direction)), 1e-11);
-        if (std::abs(glm::dot(point.normal, direction)) > 1e-3) {
-          EXPECT_TRUE(inside(tree, point.position - 1e-7 * point.normal));
-          EXPECT_FALSE(inside(tree, point.position + 1e-7 * point.normal));
-          EXPECT_EQ(glm::dot(point.normal, direction) > 0.0, state);
-        }
-        from = to + 1e-9;
-        ++hits;
-      }
+      EXPECT_EQ(wrong_along(tree, set, origin, direction, looked), "") << i << ", ray " << j;
     }
   }
-  EXPECT_GT(hits, 2000);
+  EXPECT_GT(looked.hits, 2000);
+  EXPECT_LT(looked.edges, looked.hits / 1000);
 }
 
 const SolidTree lens = combined(SolidOperation::intersect, {part(sphere(1.0), Placement({0.5, 0, 0}), 0),
@@ -233,6 +152,17 @@ TEST(Solid, CoincidentFacesAreOfTheFirstPart) {
   EXPECT_EQ(look(two(4, 9), {-2, 5, 0.1}, {0, -1, 0}).point.member, 9);
 }
 
+// A ball of two parts, less one of them: what is left begins where that one ends, and faces inwards there.
+TEST(Solid, NormalOfCoincidentFacesIsThatOfTheBoundary) {
+  const SolidTree small = part(sphere(1.0), Placement{}, 5);
+  const SurfaceSet set =
+      set_of(combined(SolidOperation::difference,
+                      {combined(SolidOperation::unite, {small, part(sphere(2.0), Placement{}, 6)}), small}));
+  const Seen seen = look(set, {0.2, 0.1, 0.0}, {1, 0, 0});
+  EXPECT_EQ(seen.point.member, 5);
+  EXPECT_NEAR(glm::dot(seen.point.normal, seen.point.position), -1.0, 1e-15);
+}
+
 TEST(Solid, SolidsThatOnlyTouchHaveNoCommonPart) {
   const SurfaceSet set =
       set_of(combined(SolidOperation::intersect, {part(box({1, 1, 1}), Placement({0.5, 0, 0})),
@@ -295,6 +225,24 @@ TEST(Solid, ManyAndDeeplyNestedParts) {
   }
   EXPECT_DOUBLE_EQ(look(set_of(deep), {0, 0, -2}, {0, 0, 1}).hit.lambda, 1.0);
   EXPECT_EQ(problem(combined(SolidOperation::unite, {deep})), "solids are nested deeper than 64 operations");
+}
+
+// 0.1/x - 0.2 < 0 holds for x < 0 and for x > 0.5: between them there are a pole and a root.
+TEST(Solid, PolesAreNoSurfaceButCountForWhatIsInside) {
+  const SolidTree formula = part(implicit(std::make_shared<const ImplicitFormula>(std::get<Expression>(
+                                              Expression::parse("0.1/x - 0.2", {"x", "y", "z", "t"}))),
+                                          {-1, -1, -1}, {1, 1, 1}));
+  const SurfaceSet alone = set_of(combined(SolidOperation::unite, {formula}));
+  const Vec3 right{1, 0, 0};
+  EXPECT_DOUBLE_EQ(alone.nearest({-3, 0.1, 0.1}, right).lambda, 2.0);
+  EXPECT_DOUBLE_EQ(alone.nearest({-0.5, 0.1, 0.1}, right).lambda, 1.0);
+  EXPECT_DOUBLE_EQ(look(alone, {-0.5, 0.1, 0.1}, right).point.normal.x, -1.0);
+  EXPECT_DOUBLE_EQ(alone.nearest({0.7, 0.1, 0.1}, right).lambda, 0.3);
+  EXPECT_DOUBLE_EQ(alone.nearest({0.25, 0.1, 0.1}, -right).lambda, 1.25);
+  const SurfaceSet rest = set_of(combined(SolidOperation::difference, {part(sphere(0.5)), formula}));
+  const Seen back = look(rest, {-3, 0.0, 0.0}, right);
+  EXPECT_DOUBLE_EQ(back.hit.lambda, 3.5);
+  EXPECT_DOUBLE_EQ(back.point.normal.x, 1.0);
 }
 
 TEST(Solid, SaysWhatIsWrong) {
