@@ -155,14 +155,13 @@ Key length(std::string_view name, DefaultValue value, std::string_view meaning, 
   return number(name, std::move(value), "length", meaning, range);
 }
 
-Key unresolved(const std::string& whose = {}) {
-  return choice(
-      "unresolved", std::string("take"), {"take", "skip"},
-      whose +
-          "What becomes of a root that cannot be isolated to full precision: one of even multiplicity, where "
-          "the surface is only touched, or so near to another that rounding hides which. `take`: it is "
-          "seen; `skip`: the ray goes on. They are counted in `--stats` and shown by the channel "
-          "`unresolved`.");
+Key unresolved(
+    const char* meaning =
+        "What becomes of a root that cannot be isolated to full precision: one of even multiplicity, where "
+        "the surface is only touched, or so near to another that rounding hides which. `take`: it is "
+        "seen; `skip`: the ray goes on. They are counted in `--stats` and shown by the channel "
+        "`unresolved`.") {
+  return choice("unresolved", std::string("take"), {"take", "skip"}, meaning);
 }
 
 std::vector<KeyTable> shapes() {
@@ -252,7 +251,7 @@ std::vector<KeyTable> shapes() {
          points("bounds", 2, "length",
                 "Of a blend, as an implicit surface's. Without it they are proved, or else are those of its "
                 "parts together, where those are written."),
-         unresolved("Of a blend; formulas among other parts have their own. ")});
+         unresolved("Of a blend, as an implicit surface's. Without a blend, each formula has its own.")});
   solid("object.intersection",
         "What all parts have in common. Solids that only touch have nothing in common.", {});
   solid("object.difference",
