@@ -155,6 +155,20 @@ std::optional<Shape> compile_implicit(Compilation& c, const TableView& table) {
   return finished(c, table, "f", surface, bounds);
 }
 
+namespace {
+
+/// The signed distance from faces that meet at right angles, of which a point is `first` outside the one it
+/// is farthest from, and `second` and `third` outside the others: √(max(first,0)² + max(second,0)² +
+/// max(third,0)²) outside, `first` inside. Written as `first` and what is added near an edge, which next to a
+/// face is 0 with slope 0, so that intervals find f to be monotone there.
+std::string corner_distance(const std::string& first, const std::string& second, const std::string& third) {
+  const std::string aside = "(max(" + second + ", 0)^2 + max(" + third + ", 0)^2)";
+  const std::string outside = "max(" + first + ", 0)";
+  return first + " + " + aside + "/(sqrt(max(" + outside + "^2 + " + aside + ", 1e-200)) + " + outside + ")";
+}
+
+}  // namespace
+
 std::optional<Expression> formula_of(const Shape& shape) {
   const auto& v = shape.values;
   switch (shape.kind) {
@@ -166,14 +180,14 @@ std::optional<Expression> formula_of(const Shape& shape) {
       return parsed("y", {}, {});
     case ShapeKind::box:
       return parsed(
-          "sqrt(max(abs(x) - a, 0)^2 + max(abs(y) - b, 0)^2 + max(abs(z) - c, 0)^2)"
-          " + min(max(abs(x) - a, abs(y) - b, abs(z) - c), 0)",
+          corner_distance("max(abs(x) - a, abs(y) - b, abs(z) - c)",
+                          "max(min(abs(x) - a, abs(y) - b), min(max(abs(x) - a, abs(y) - b), abs(z) - c))",
+                          "min(abs(x) - a, abs(y) - b, abs(z) - c)"),
           {"a", "b", "c"}, {0.5 * v[0], 0.5 * v[1], 0.5 * v[2]});
     case ShapeKind::cylinder:
-      return parsed(
-          "sqrt(max(sqrt(x^2 + z^2) - r, 0)^2 + max(abs(y) - h, 0)^2)"
-          " + min(max(sqrt(x^2 + z^2) - r, abs(y) - h), 0)",
-          {"r", "h"}, {v[0], 0.5 * v[1]});
+      return parsed(corner_distance("max(sqrt(x^2 + z^2) - r, abs(y) - h)",
+                                    "min(sqrt(x^2 + z^2) - r, abs(y) - h)", "-1"),
+                    {"r", "h"}, {v[0], 0.5 * v[1]});
     case ShapeKind::quadric:
       return parsed("c0*x^2 + c1*y^2 + c2*z^2 + c3*x*y + c4*x*z + c5*y*z + c6*x + c7*y + c8*z + c9",
                     {"c0", "c1", "c2", "c3", "c4", "c5", "c6", "c7", "c8", "c9"}, {v.begin(), v.end()});

@@ -89,6 +89,30 @@ TEST(CompileBlend, IsThePolynomialSmoothMinimum) {
   EXPECT_NEAR(near_one.lambda - 9, -std::sqrt(1 - 0.49), 1e-13);  // beyond the blend: the sphere itself
 }
 
+// The flat faces of parts keep what they have: a certain root each; and near an edge the offset is round.
+TEST(CompileBlend, FacesOfBoxAndCylinderAreResolved) {
+  for (const char* part :
+       {"shape = \"box\", size = [2, 2, 2]", "shape = \"cylinder\", radius = 1, height = 2"}) {
+    const Scene scene =
+        compiled(camera + "[[object]]\nshape = \"union\"\nblend = 0.4\nposition = [0.1, 0.2, 0.3]\n" +
+                 "part = [{ " + part + " }, { shape = \"sphere\", radius = 1, position = [9, 0, 0] }]\n");
+    const SurfaceSet& set = scene.frames[0].surfaces;
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 from{0.1 + 0.02 * i - 0.59, 8.0, 0.3 + 0.013 * i - 0.4};
+      const Hit top = set.nearest(from, {0.01, -1.0, 0.02});
+      EXPECT_FALSE(top.unresolved) << part << i;
+      EXPECT_NEAR(top.lambda, 6.8, 1e-13) << part << i;
+    }
+  }
+  const Scene two =
+      compiled(camera + "[[object]]\nshape = \"union\"\nblend = 1\nbounds = [[-4, -4, -4], [4, 4, 4]]\n" +
+               "part = [{ shape = \"box\", size = [2, 2, 2] }, { shape = \"box\", size = [2, 2, 2] }]\n");
+  // The same twice: f = d - 1/4, whose corner is an eighth of a sphere of radius 1/4.
+  const Vec3 diagonal = glm::normalize(Vec3{1, 1, 1});
+  const Hit corner = two.frames[0].surfaces.nearest(5.0 * diagonal, -diagonal);
+  EXPECT_NEAR(5.0 - corner.lambda, std::sqrt(3.0) + 0.25, 1e-13);
+}
+
 // The bounds of one image are those of the next where the formula is the same, and only there.
 TEST(CompileImplicit, BoundsAreProvedOnceForEachFormula) {
   const std::string text = camera + "[animation]\nframes = [1, 3]\n[params]\nsize = \"floor(1 + t)\"\n" +
