@@ -62,6 +62,7 @@ int run(const RenderOptions& options) {
   const auto images = plan_images(options, session.frames());
   if (!images.ok()) return usage_trouble(images.error());
   const bool nothing_planned = images.value().empty();  // [animation] is wrong: compile() says how
+  if (images.value().size() <= 1) session.expect_one_image();
   auto first = session.compile(nothing_planned ? options.scene.request : images.value().front().request);
   if (!first || nothing_planned) return exit_scene_wrong;
 

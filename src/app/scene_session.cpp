@@ -20,8 +20,9 @@ SceneSession::SceneSession(const SceneOptions& options) {
 }
 
 std::optional<Scene> SceneSession::compile(const ImageRequest& request) {
+  if (!compiler_) compiler_.emplace(*description_, cache_, images_);
   Diagnostics diagnostics = found_by_reading_;
-  std::optional<Scene> scene = backlight::compile(*description_, request, cache_, diagnostics);
+  std::optional<Scene> scene = compiler_->compile(request, diagnostics);
   if (!scene) exit_code_ = exit_scene_wrong;
   if (!scene || !warnings_are_printed_) print(in_file_order(diagnostics, *description_));
   warnings_are_printed_ = true;

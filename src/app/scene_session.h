@@ -14,6 +14,9 @@ class SceneSession {
   /// Reads the file. What is wrong with it is kept for the first compile().
   explicit SceneSession(const SceneOptions& options);
 
+  /// To be called before the first compile(), if there will be no more than one.
+  void expect_one_image() { images_ = SceneCompiler::Images::one; }
+
   /// exit_success while nothing is wrong; then compile() may be called.
   [[nodiscard]] int exit_code() const { return exit_code_; }
 
@@ -34,6 +37,8 @@ class SceneSession {
   std::optional<Description> description_;
   Diagnostics found_by_reading_;
   ResourceCache cache_;
+  SceneCompiler::Images images_ = SceneCompiler::Images::several;
+  std::optional<SceneCompiler> compiler_;
   int exit_code_ = 0;
   bool warnings_are_printed_ = false;
 };

@@ -249,25 +249,42 @@ std::vector<int> animation_frames(const Description& description) {
   return frames;
 }
 
-std::optional<Scene> compile(const Description& description, const ImageRequest& request,
-                             ResourceCache& cache, Diagnostics& diagnostics) {
+SceneCompiler::SceneCompiler(const Description& description, ResourceCache& cache, Images images)
+    : description_(description), cache_(cache), images_(images) {
+  forget();
+}
+
+SceneCompiler::~SceneCompiler() = default;
+
+void SceneCompiler::forget() {
+  parts_ = std::make_unique<CompiledParts>(description_);
+  parts_->kept = images_ == Images::several;
+}
+
+std::optional<Scene> SceneCompiler::compile(const ImageRequest& request, Diagnostics& diagnostics) {
   Scene scene;
-  ImageValues values = image_values(description, request, diagnostics);
+  ImageValues values = image_values(description_, request, diagnostics);
   scene.time = values.variables[0];
   scene.frame = values.variables[1];
-  scene.c = TableView(values, &description.root, *find_table("")).number("c");
+  scene.c = TableView(values, &description_.root, *find_table("")).number("c");
 
   Frames frames(values, scene.c, scene.frames);
-  Compilation parts{values, request, cache, scene, frames};
+  Compilation parts{values, request, cache_, scene, frames, *parts_};
   compile_film(parts);
   compile_camera(parts);
   compile_objects(parts);
   compile_lights(parts);
   compile_sky(parts);
   compile_effects(parts);
-  if (diagnostics.has_errors()) return std::nullopt;
-  for (SceneFrame& frame : scene.frames) frame.surfaces.build();
-  return scene;
+  if (!diagnostics.has_errors() && images_ == Images::several) return scene;
+  forget();
+  if (!diagnostics.has_errors()) return scene;
+  return std::nullopt;
+}
+
+std::optional<Scene> compile(const Description& description, const ImageRequest& request,
+                             ResourceCache& cache, Diagnostics& diagnostics) {
+  return SceneCompiler(description, cache, SceneCompiler::Images::one).compile(request, diagnostics);
 }
 
 }  // namespace backlight

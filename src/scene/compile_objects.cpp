@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <unordered_map>
+#include <utility>
 
 #include "compile_shapes.h"
 
@@ -30,49 +34,196 @@ Lattice read_lattice(const TableView& object) {
   return lattice;
 }
 
-// One object with its copies, x counting fastest.
-void add_copies(SceneFrame& frame, int object, const Shape& shape, const Placement& first,
-                const Lattice& lattice, const Vec3& rotate) {
-  for (int k = 0; k < lattice.count[2]; ++k)
-    for (int j = 0; j < lattice.count[1]; ++j)
-      for (int i = 0; i < lattice.count[0]; ++i) {
-        const Vec3 offset = Vec3{double(i), double(j), double(k)} * lattice.step;
-        frame.surfaces.add(shape, Placement(first.position() + offset, rotate, first.scale()));
-        frame.object_of_surface.push_back(object);
-      }
-}
+// The surfaces of a frame, before their search tree is made.
+struct FrameBuilder {
+  SurfaceSet surfaces;
+  std::vector<int> object_of_surface;
 
-void compile_object(Compilation& c, const Node& node, Materials& materials) {
-  const TableView table(c.values, &node, *find_table("object"));
-  const std::size_t errors = c.values.diagnostics.error_count();
-  Object object;
-  object.name = table.text("name");
-  object.id = static_cast<int>(c.scene.objects.size()) + 1;
-  object.material = materials.of(table);
-  const Vec3 rotate = table.vector("rotate");
-  const RestPlace place = c.frames.rest_of(table, table.vector("position"));
-  const Placement placement(place.position, rotate, read_scale(table));
-  const Lattice lattice = read_lattice(table);
-  const auto compiled = compile_shape(c, table, materials, object.material);
-  if (compiled) object.member_materials = compiled->member_materials;
-  c.scene.objects.push_back(object);
-  if (!compiled || c.values.diagnostics.error_count() > errors) return;
-  if (const std::string wrong = problem(placement); !wrong.empty()) {
-    return table.error(table.has("scale") ? "scale" : "position", wrong);
+  // One object with its copies, x counting fastest.
+  void add_copies(int object, const Shape& shape, const Placement& first, const Lattice& lattice,
+                  const Vec3& rotate) {
+    for (int k = 0; k < lattice.count[2]; ++k)
+      for (int j = 0; j < lattice.count[1]; ++j)
+        for (int i = 0; i < lattice.count[0]; ++i) {
+          const Vec3 offset = Vec3{double(i), double(j), double(k)} * lattice.step;
+          surfaces.add(shape, Placement(first.position() + offset, rotate, first.scale()));
+          object_of_surface.push_back(object);
+        }
   }
-  SceneFrame& frame = c.scene.frames[static_cast<std::size_t>(place.frame)];
-  add_copies(frame, object.id - 1, compiled->shape, placement, lattice, rotate);
-}
+};
+
+// All objects of a description, for one image.
+class ObjectCompiler {
+ public:
+  ObjectCompiler(Compilation& c, const NodeArray& written)
+      : c_(c), written_(written), plan_(c.parts.objects), materials_(c.values, c.cache, c.parts) {}
+
+  void run() {
+    if (plan_.group_of.empty()) make_plan();
+    place_groups();
+    for (std::size_t i = 0; i < written_.size(); ++i) {
+      const auto group = static_cast<std::size_t>(plan_.group_of[i]);
+      if (!frames_[frame_of_group_[group]].reused) compile_object(static_cast<int>(i), group);
+    }
+    c_.scene.materials = materials_.finish(c_.scene.counts);
+    if (plan_.objects.empty()) plan_.objects = std::move(objects_);
+    c_.scene.objects = plan_.objects;
+    if (!c_.values.diagnostics.has_errors()) finish_frames();
+  }
+
+ private:
+  struct FrameOfImage {
+    std::vector<int> groups;
+    bool reused = false;
+    std::unique_ptr<FrameBuilder> builder;  // null: nothing to add so far
+  };
+
+  [[nodiscard]] TableView table(int object) const {
+    return {c_.values, &written_[static_cast<std::size_t>(object)], *find_table("object")};
+  }
+
+  void make_plan() {
+    const bool c_changes = changes_with_time(find(c_.values.description.root, "c"));
+    std::unordered_map<std::string, int> named;
+    std::unordered_map<InertialFrame, int, HashOfFrame> moving;
+    const auto group_for = [&](int object) {
+      const auto next = static_cast<int>(plan_.groups.size());
+      const TableView keys = table(object);
+      if (!has_motion(keys)) {
+        c_.frames.check_at_rest(keys);
+        return named.emplace(keys.text("frame"), next).first->second;
+      }
+      if (c_changes || motion_changes(object)) return next;
+      const auto motion = c_.frames.own_motion(keys);
+      return motion ? moving.emplace(*motion, next).first->second
+                    : named.emplace("world", next).first->second;
+    };
+    for (int i = 0; i < static_cast<int>(written_.size()); ++i) {
+      const int group = group_for(i);
+      if (group == static_cast<int>(plan_.groups.size())) plan_.groups.emplace_back();
+      plan_.group_of.push_back(group);
+      ObjectGroup& its = plan_.groups[static_cast<std::size_t>(group)];
+      its.changes = its.changes || c_changes || surfaces_change(i);
+    }
+    for (const auto& [name, group] : named) plan_.groups[static_cast<std::size_t>(group)].frame = name;
+    for (const auto& [motion, group] : moving) plan_.groups[static_cast<std::size_t>(group)].motion = motion;
+    for (std::size_t i = 0; i < written_.size(); ++i) {
+      ObjectGroup& group = plan_.groups[static_cast<std::size_t>(plan_.group_of[i])];
+      if (group.frame.empty() && !group.motion) group.follows = static_cast<int>(i);
+    }
+  }
+
+  [[nodiscard]] bool changes_with_time(const Entry* entry) const {
+    return c_.parts.kept && entry != nullptr && c_.parts.dependence.changes(entry->node);
+  }
+
+  // Its velocity, or the place that its frame starts from.
+  [[nodiscard]] bool motion_changes(int object) const {
+    const Node& node = written_[static_cast<std::size_t>(object)];
+    for (const std::string_view key :
+         {"velocity", "beta", "gamma", "celerity", "rapidity", "along", "position"}) {
+      if (changes_with_time(find(node, key))) return true;
+    }
+    return false;
+  }
+
+  // Materials are compiled apart from the surfaces.
+  [[nodiscard]] bool surfaces_change(int object) const {
+    return c_.parts.kept &&
+           c_.parts.dependence.changes(written_[static_cast<std::size_t>(object)], "material");
+  }
+
+  // Which group is in which frame at this image's time, and whether all surfaces there are known.
+  void place_groups() {
+    for (int i = 0; i < static_cast<int>(plan_.groups.size()); ++i) {
+      const ObjectGroup& group = plan_.groups[static_cast<std::size_t>(i)];
+      std::optional<InertialFrame> motion = group.motion;
+      if (group.follows >= 0) motion = c_.frames.own_motion(table(group.follows));
+      const std::string name = motion || group.frame.empty() ? "" : group.frame;
+      const int frame = c_.frames.index_of(motion ? *motion : c_.frames.named(group.frame), name);
+      frame_of_group_.push_back(static_cast<std::size_t>(frame));
+      moves_.push_back(motion.has_value());
+      frames_.resize(std::max(frames_.size(), frame_of_group_.back() + 1));
+      frames_[frame_of_group_.back()].groups.push_back(i);
+    }
+    for (FrameOfImage& frame : frames_) {
+      if (frame.groups.empty()) continue;
+      const ObjectGroup& first = plan_.groups[static_cast<std::size_t>(frame.groups.front())];
+      frame.reused = first.surfaces != nullptr && std::equal(first.others.begin(), first.others.end(),
+                                                             frame.groups.begin() + 1, frame.groups.end());
+    }
+  }
+
+  void compile_object(int index, std::size_t group) {
+    const TableView keys = table(index);
+    const std::size_t errors = c_.values.diagnostics.error_count();
+    Object object;
+    object.name = keys.text("name");
+    object.id = index + 1;
+    object.material = materials_.of(keys);
+    const Vec3 rotate = keys.vector("rotate");
+    // One that moves by itself is at the origin of its frame.
+    const Placement placement(moves_[group] ? Vec3{0.0} : keys.vector("position"), rotate, read_scale(keys));
+    const Lattice lattice = read_lattice(keys);
+    const auto compiled = compile_shape(c_, keys, materials_, object.material);
+    if (compiled) object.member_materials = compiled->member_materials;
+    objects_.push_back(std::move(object));
+    if (!compiled || c_.values.diagnostics.error_count() > errors) return;
+    if (const std::string wrong = problem(placement); !wrong.empty()) {
+      return keys.error(keys.has("scale") ? "scale" : "position", wrong);
+    }
+    std::unique_ptr<FrameBuilder>& builder = frames_[frame_of_group_[group]].builder;
+    if (!builder) builder = std::make_unique<FrameBuilder>();
+    builder->add_copies(index, compiled->shape, placement, lattice, rotate);
+  }
+
+  void finish_frames() {
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      FrameOfImage& frame = frames_[i];
+      if (frame.groups.empty()) continue;
+      ObjectGroup& first = plan_.groups[static_cast<std::size_t>(frame.groups.front())];
+      SceneFrame& into = c_.scene.frames[i];
+      if (frame.reused) {
+        into.surfaces = first.surfaces;
+        into.object_of_surface = first.object_of_surface;
+        c_.scene.counts.surfaces_reused += first.object_of_surface.size();
+        continue;
+      }
+      frame.builder->surfaces.build();
+      into.surfaces = std::make_shared<const SurfaceSet>(std::move(frame.builder->surfaces));
+      into.object_of_surface = std::move(frame.builder->object_of_surface);
+      frame.builder.reset();
+      c_.scene.counts.surfaces_made += into.object_of_surface.size();
+      if (c_.parts.kept && can_be_reused(frame)) {
+        first.others.assign(frame.groups.begin() + 1, frame.groups.end());
+        first.surfaces = into.surfaces;
+        first.object_of_surface = into.object_of_surface;
+      }
+    }
+  }
+
+  [[nodiscard]] bool can_be_reused(const FrameOfImage& frame) const {
+    return std::none_of(frame.groups.begin(), frame.groups.end(),
+                        [&](int group) { return plan_.groups[static_cast<std::size_t>(group)].changes; });
+  }
+
+  Compilation& c_;
+  const NodeArray& written_;
+  ObjectPlan& plan_;
+  Materials materials_;
+  std::vector<Object> objects_;
+  std::vector<std::size_t> frame_of_group_;
+  std::vector<bool> moves_;  // by group: whether it has a frame of its own
+  std::vector<FrameOfImage> frames_;
+};
 
 }  // namespace
 
 void compile_objects(Compilation& c) {
-  Materials materials(c.values, c.cache, c.scene.materials);
+  static const NodeArray none;
   const Entry* objects = find(c.values.description.root, "object");
-  if (objects != nullptr && objects->node.array() != nullptr) {
-    for (const Node& node : *objects->node.array()) compile_object(c, node, materials);
-  }
-  materials.finish();
+  const NodeArray* written = objects != nullptr ? objects->node.array() : nullptr;
+  ObjectCompiler(c, written != nullptr ? *written : none).run();
 }
 
 }  // namespace backlight

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "backlight/scene/compile.h"
+#include "compiled_parts.h"
 #include "materials.h"
 #include "motion.h"
 #include "values.h"
@@ -15,6 +16,7 @@ struct Compilation {
   ResourceCache& cache;
   Scene& scene;
   Frames& frames;
+  CompiledParts& parts;
 };
 
 /// The variables of one image, with their derivatives by t. What is wrong with them goes to `diagnostics`.

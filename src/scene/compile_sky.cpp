@@ -58,28 +58,43 @@ Star made_up_star(Random& random, double brightness) {
   return star_of({r * std::sin(longitude), y, r * std::cos(longitude)}, magnitude, b_minus_v, brightness);
 }
 
-void add_catalogue(Compilation& c, const TableView& table, std::string_view key, double brightness) {
+void add_catalogue(Compilation& c, const TableView& table, std::string_view key, double brightness,
+                   std::vector<Star>& into) {
   const Node* written = table.node_of(key);
   if (written == nullptr || written->text() == nullptr) return;
   const auto stars = c.cache.stars(resolve_path(c.values, *written));
   if (!stars.ok()) return table.error(key, stars.error());
   for (const CatalogueStar& star : *stars.value()) {
     const Vec3 direction = direction_of(star.right_ascension, star.declination);
-    c.scene.sky.stars.push_back(star_of(direction, star.magnitude, star.b_minus_v, brightness));
+    into.push_back(star_of(direction, star.magnitude, star.b_minus_v, brightness));
   }
+}
+
+void read_stars(Compilation& c, const TableView& background, std::vector<Star>& stars) {
+  if (background.node_of("stars")->text() != nullptr) {
+    return add_catalogue(c, background, "stars", 1.0, stars);
+  }
+  const TableView table = background.table("stars", "background.stars");
+  const double brightness = table.number("brightness");
+  const std::string_view given = table.one_of({"file", "count"});
+  if (given == "file") return add_catalogue(c, table, "file", brightness, stars);
+  if (given.empty()) return background.error("stars", "'stars' needs a file or a count");
+  Random random(static_cast<std::uint64_t>(table.number("seed")));
+  const double count = table.number("count");
+  for (double i = 0; i < count; ++i) stars.push_back(made_up_star(random, brightness));
 }
 
 void read_stars_key(Compilation& c, const TableView& background) {
   if (!background.has_valid("stars")) return;
-  if (background.node_of("stars")->text() != nullptr) return add_catalogue(c, background, "stars", 1.0);
-  const TableView table = background.table("stars", "background.stars");
-  const double brightness = table.number("brightness");
-  const std::string_view given = table.one_of({"file", "count"});
-  if (given == "file") return add_catalogue(c, table, "file", brightness);
-  if (given.empty()) return background.error("stars", "'stars' needs a file or a count");
-  Random random(static_cast<std::uint64_t>(table.number("seed")));
-  const double count = table.number("count");
-  for (double i = 0; i < count; ++i) c.scene.sky.stars.push_back(made_up_star(random, brightness));
+  if (c.parts.stars) {
+    c.scene.sky.stars = *c.parts.stars;
+    return;
+  }
+  std::vector<Star> stars;
+  read_stars(c, background, stars);
+  c.scene.sky.stars = std::move(stars);
+  const bool changes = c.parts.dependence.changes(*background.node_of("stars"));
+  if (c.parts.kept && !changes) c.parts.stars = c.scene.sky.stars;
 }
 
 }  // namespace

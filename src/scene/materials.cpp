@@ -79,35 +79,60 @@ Colour times(const Colour& light, double strength) {
   return {light.spectrum.scaled(strength), strength * light.rgb};
 }
 
-Materials::Materials(ImageValues& values, ResourceCache& cache, std::vector<Material>& scene_materials)
-    : values_(values), cache_(cache), materials_(scene_materials) {
+Materials::Materials(ImageValues& values, ResourceCache& cache, CompiledParts& parts)
+    : values_(values),
+      cache_(cache),
+      parts_(parts),
+      plan_(parts.materials),
+      reuses_(plan_.complete && !plan_.changes) {
+  if (plan_.complete) {
+    for (const MaterialPlan::Place& place : plan_.places) {
+      if (!reuses_) read(place);
+    }
+    return;
+  }
   const Entry* named = find(values.description.root, "material");
   if (named == nullptr || named->node.table() == nullptr) return;
   for (const Entry& entry : *named->node.table()) {
-    named_.emplace(entry.name, add({values_, &entry.node, *find_table("material")}, entry.name));
+    plan_.named.emplace(entry.name, add({&entry.node, entry.name}));
   }
 }
 
 int Materials::of(const TableView& object) {
   const Node* written = object.node_of("material");
-  if (written != nullptr && written->table() != nullptr) return add(object.table("material", "material"), "");
-  if (written != nullptr && written->text() != nullptr) {
-    const auto found = named_.find(*written->text());
-    if (found != named_.end()) return found->second;
+  if (written != nullptr && written->table() != nullptr) {
+    const auto known = plan_.within_objects.find(written);
+    if (known != plan_.within_objects.end()) return known->second;
+    const int index = add({written, {}});
+    if (parts_.kept) plan_.within_objects.emplace(written, index);
+    return index;
   }
-  if (grey_ < 0) grey_ = add({values_, nullptr, *find_table("material")}, "");
-  return grey_;
+  if (written != nullptr && written->text() != nullptr) {
+    const auto found = plan_.named.find(*written->text());
+    if (found != plan_.named.end()) return found->second;
+  }
+  if (plan_.grey < 0) plan_.grey = add({});
+  return plan_.grey;
 }
 
-int Materials::add(const TableView& table, const std::string& name) {
+int Materials::add(const MaterialPlan::Place& place) {
+  read(place);
+  if (parts_.kept) {
+    plan_.places.push_back(place);
+    plan_.changes = plan_.changes || (place.written != nullptr && parts_.dependence.changes(*place.written));
+  }
+  return static_cast<int>(materials_.size()) - 1;
+}
+
+void Materials::read(const MaterialPlan::Place& place) {
+  const TableView table(values_, place.written, *find_table("material"));
   materials_.emplace_back();
   Material& material = materials_.back();
-  material.name = name;
+  material.name = place.name;
   read_reflectance(table, material);
   material.specular = table.number("specular");
   material.shininess = table.number("shininess");
   read_emission(table, material);
-  return static_cast<int>(materials_.size()) - 1;
 }
 
 void Materials::read_reflectance(const TableView& table, Material& material) {
@@ -164,7 +189,20 @@ void Materials::read_emission(const TableView& table, Material& material) {
   material.emission = times(light, emission);
 }
 
-void Materials::finish() {
+SharedVector<Material> Materials::finish(CompileCounts& counts) {
+  if (reuses_) {
+    counts.materials_reused = plan_.made.size();
+    return plan_.made;
+  }
+  counts.materials_made = materials_.size();
+  make_spectra();
+  SharedVector<Material> made(std::move(materials_));
+  plan_.complete = parts_.kept;
+  if (parts_.kept && !plan_.changes) plan_.made = made;
+  return made;
+}
+
+void Materials::make_spectra() {
   const auto colour_of = [&](const Pending& p) -> Colour& {
     Material& material = materials_[p.material];
     return p.square < 0 ? material.reflectance

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "backlight/scene/resources.h"
 #include "backlight/scene/scene.h"
+#include "compiled_parts.h"
 #include "values.h"
 
 namespace backlight {
@@ -32,13 +32,14 @@ Colour times(const Colour& light, double strength);
 /// The materials of a scene: the named ones, and those written within objects.
 class Materials {
  public:
-  Materials(ImageValues& values, ResourceCache& cache, std::vector<Material>& scene_materials);
+  /// Takes over what the images before have found, and leaves in `parts` what those after may.
+  Materials(ImageValues& values, ResourceCache& cache, CompiledParts& parts);
 
   /// The index of an object's material, a grey of 0.8 by default.
   int of(const TableView& object);
 
-  /// To be called after the last material: gives the reflectances made from RGB their spectra.
-  void finish();
+  /// To be called after the last material: all of them, with the spectra of those made from RGB.
+  SharedVector<Material> finish(CompileCounts& counts);
 
  private:
   // A reflectance given as red, green, blue, whose spectrum is made at the end. `square` < 0: not of a
@@ -49,17 +50,20 @@ class Materials {
     std::optional<double> uv, ir;
   };
 
-  int add(const TableView& table, const std::string& name);
+  int add(const MaterialPlan::Place& place);
+  void read(const MaterialPlan::Place& place);
+  void make_spectra();
   void read_reflectance(const TableView& table, Material& material);
   void read_checker(const TableView& table, Material& material);
   void read_emission(const TableView& table, Material& material);
 
   ImageValues& values_;
   ResourceCache& cache_;
-  std::vector<Material>& materials_;
-  std::unordered_map<std::string, int> named_;
+  CompiledParts& parts_;
+  MaterialPlan& plan_;
+  bool reuses_;  // all materials
+  std::vector<Material> materials_;
   std::vector<Pending> pending_;
-  int grey_ = -1;
 };
 
 }  // namespace backlight

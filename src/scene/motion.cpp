@@ -78,7 +78,7 @@ ExtendedVec3 read_celerity(const TableView& table, double c) {
   return (size / magnitude(along)) * along;
 }
 
-std::size_t Frames::Hash::operator()(const InertialFrame& frame) const {
+std::size_t HashOfFrame::operator()(const InertialFrame& frame) const {
   std::size_t seed = 0;
   const auto mix = [&seed](Extended value) {
     for (const double part : {value.hi, value.lo}) {
@@ -133,17 +133,31 @@ int Frames::index_of(const InertialFrame& frame, const std::string& name) {
 
 RestPlace Frames::rest_of(const TableView& thing, const Vec3& position) {
   if (!has_motion(thing)) {
-    if (thing.has("along")) read_celerity(thing, c_);  // reports it
+    check_at_rest(thing);
     const std::string name = thing.text("frame");
     return {index_of(named(name), name), position};
   }
+  const ExtendedVec3 celerity = own_celerity(thing);
+  if (celerity == ExtendedVec3{}) return {0, position};
+  return {index_of({celerity, {Extended(0.0), ExtendedVec3(position)}}, ""), Vec3{0.0}};
+}
+
+std::optional<InertialFrame> Frames::own_motion(const TableView& thing) {
+  const ExtendedVec3 celerity = own_celerity(thing);
+  if (celerity == ExtendedVec3{}) return std::nullopt;
+  return InertialFrame{celerity, {Extended(0.0), ExtendedVec3(thing.vector("position"))}};
+}
+
+void Frames::check_at_rest(const TableView& thing) {
+  if (thing.has("along")) read_celerity(thing, c_);
+}
+
+ExtendedVec3 Frames::own_celerity(const TableView& thing) {
   if (thing.has("frame")) {
     thing.error("frame", "a thing has a frame or a velocity of its own, not both",
                 "remove 'frame', or define a [frame.NAME] with this velocity within it");
   }
-  const ExtendedVec3 celerity = read_celerity(thing, c_);
-  if (celerity == ExtendedVec3{}) return {0, position};
-  return {index_of({celerity, {Extended(0.0), ExtendedVec3(position)}}, ""), Vec3{0.0}};
+  return read_celerity(thing, c_);
 }
 
 }  // namespace backlight

@@ -24,6 +24,10 @@ struct RestPlace {
   Vec3 position{0.0};
 };
 
+struct HashOfFrame {
+  std::size_t operator()(const InertialFrame& frame) const;
+};
+
 /// The frames of a scene. Equal ones are one; a frame enters the scene when something is at rest in it.
 class Frames {
  public:
@@ -38,19 +42,25 @@ class Frames {
   /// written: in coordinates of its frame, or of the world at world time 0 if it has a velocity.
   RestPlace rest_of(const TableView& thing, const Vec3& position);
 
- private:
-  struct Hash {
-    std::size_t operator()(const InertialFrame& frame) const;
-  };
+  /// The rest frame that comes of a thing's own velocity, with its origin at the thing; nothing if that is
+  /// the world, or wrong (and reported).
+  std::optional<InertialFrame> own_motion(const TableView& thing);
 
-  const InertialFrame& define(const std::string& name);
+  /// What is wrong with the keys of a thing that has no velocity of its own is reported.
+  void check_at_rest(const TableView& thing);
+
+  /// The index of a frame among the scene's; `name` is for one that is new there.
   int index_of(const InertialFrame& frame, const std::string& name);
+
+ private:
+  const InertialFrame& define(const std::string& name);
+  ExtendedVec3 own_celerity(const TableView& thing);
 
   ImageValues& values_;
   double c_;
   std::vector<SceneFrame>& scene_frames_;
   std::unordered_map<std::string, InertialFrame> named_;
-  std::unordered_map<InertialFrame, int, Hash> indices_;
+  std::unordered_map<InertialFrame, int, HashOfFrame> indices_;
 };
 
 }  // namespace backlight

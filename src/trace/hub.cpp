@@ -11,7 +11,7 @@ FrameView view_of(const SceneFrame& frame, const CameraView& camera) {
   view.from_camera = relative_transform<Rest, Camera>(frame.motion.celerity, camera.celerity);
   view.camera_event = {double(event.t), event.x.rounded()};
   view.scene = &frame;
-  const BoundingSphere bounds = frame.surfaces.bounds();
+  const BoundingSphere bounds = frame.surfaces->bounds();
   if (view.from_camera.gamma() > robust_gamma && bounds.radius >= 0.0 && std::isfinite(bounds.radius)) {
     view.far = FarView{ExtendedTransform(frame.motion.celerity, camera.celerity), event, bounds};
   }
@@ -36,7 +36,7 @@ Hub make_hub(const Scene& scene) {
   hub.frames.reserve(scene.frames.size());
   for (const SceneFrame& frame : scene.frames) {
     hub.frames.push_back(view_of(frame, scene.camera));
-    if (frame.surfaces.size() > 0) hub.occupied.push_back(static_cast<int>(hub.frames.size()) - 1);
+    if (frame.surfaces->size() > 0) hub.occupied.push_back(static_cast<int>(hub.frames.size()) - 1);
   }
   hub.lights.reserve(scene.lights.size());
   for (const Light& light : scene.lights) hub.lights.push_back(view_of(light, scene));

@@ -20,7 +20,7 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit) {
   const RestRayEvents& ray = rays.in(hit.frame);
   SeenPoint point;
   point.hit = hit;
-  point.surface = hub.frames[static_cast<std::size_t>(hit.frame)].scene->surfaces.resolve(
+  point.surface = hub.frames[static_cast<std::size_t>(hit.frame)].scene->surfaces->resolve(
       hit.hit, ray.origin, ray.direction, ray.clock());
   point.to_camera = -ray.direction / glm::length(ray.direction);
   const bool outside = glm::dot(point.surface.normal, point.to_camera) >= 0.0;

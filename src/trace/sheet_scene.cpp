@@ -134,7 +134,7 @@ SheetScene::SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& k
 
 void SheetScene::list_occupants(const Hub& hub) {
   for (const int frame : hub.occupied) {
-    const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(frame)].scene->surfaces;
+    const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(frame)].scene->surfaces;
     const auto count = static_cast<int>(surfaces.size());
     const bool whole = one_by_one(frame);
     if (whole) occupants_.push_back({frame, -1, {}});
@@ -177,7 +177,7 @@ EyeView SheetScene::view_of(const Scene& scene, const Hub& hub, int eye) const {
         if (view.far && delayed != 0) cone = cone_of(*view.far, offset);
         if (view.far) radius = view.far->bounds.radius * (1.0 + 1e-9);
       } else {
-        const BoundingSphere sphere = view.scene->surfaces.bounds(occupant.surface);
+        const BoundingSphere sphere = view.scene->surfaces->bounds(occupant.surface);
         if (std::isfinite(sphere.radius)) {
           cone = delayed != 0 ? cone_of(view, origin, sphere) : cone_of_now(view, origin, sphere);
           radius = sphere.radius;
@@ -208,7 +208,7 @@ LampView SheetScene::view_of(const Scene& scene, const Hub& hub, std::size_t lig
   for (std::size_t i = 0; i < occluders_.size(); ++i) {
     const Occupant& occluder = occluders_[i];
     const FrameView& view = hub.frames[static_cast<std::size_t>(occluder.frame)];
-    const SurfaceSet& surfaces = view.scene->surfaces;
+    const SurfaceSet& surfaces = *view.scene->surfaces;
     const BoundingSphere sphere =
         occluder.surface < 0 ? surfaces.bounds() : surfaces.bounds(occluder.surface);
     if (!std::isfinite(sphere.radius)) {

@@ -120,7 +120,8 @@ void SheetShader::begin_tile(const Effects& effects) {
 int SheetShader::resolve_one_by_one(const Occupant& occupant, std::span<const Hit> hits) {
   PointSheet& p = work_.points;
   const Scene& scene = tracer_.scene();
-  const SurfaceSet& surfaces = tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
+  const SurfaceSet& surfaces =
+      *tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
   alignas(64) double error_bound[sheet_size] = {};
   int material = -1;
   bool same = true;
@@ -194,7 +195,7 @@ void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Ra
                                  const Occupant& lit, std::span<const Hit> hits) {
   PointSheet& p = work_.points;
   const Hub& hub = tracer_.hub();
-  const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(occluder.frame)].scene->surfaces;
+  const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(occluder.frame)].scene->surfaces;
   const double end = tracer_.scene().lights[light].kind == LightKind::distant ? infinity : 1.0;
   const bool far = sheets_.one_by_one(occluder.frame) ||
                    hub.lights[light].to_frame[static_cast<std::size_t>(occluder.frame)].is_robust();

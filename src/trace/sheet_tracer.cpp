@@ -185,7 +185,7 @@ class SheetSearch {
   void ask_surface(TileSheet& sheet, int who, const Occupant& occupant, const LaneFrame& frame,
                    std::uint64_t inside) {
     const SurfaceSet& surfaces =
-        tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
+        *tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
     alignas(64) double direction[4][sheet_size];
     scene_.kernels().in_frame(frame, sheet.rays, direction);
     RayList rays;
@@ -210,7 +210,7 @@ class SheetSearch {
 
   void ask_frame(TileSheet& sheet, const Occupant& occupant, std::uint64_t inside) {
     const SurfaceSet& surfaces =
-        tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
+        *tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
     for (; inside != 0; inside &= inside - 1) {
       const int lane = __builtin_ctzll(inside);
       scratch_.rays.start(camera_ray_of(tracer_.scene(), sheet.rays, lane, eye_));

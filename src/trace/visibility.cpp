@@ -22,7 +22,7 @@ FirstHit first_hit(const Hub& hub, RayInFrames& rays) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const int index : hub.occupied) {
     const RestRayEvents& ray = rays.in(index);
-    const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(index)].scene->surfaces;
+    const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(index)].scene->surfaces;
     const Hit hit = surfaces.nearest(ray.origin, ray.direction, nearest - ray.start, ray.clock());
     if (!hit.found()) continue;
     first = {hit, index, Extended(ray.start) + Extended(hit.lambda)};
@@ -33,7 +33,7 @@ FirstHit first_hit(const Hub& hub, RayInFrames& rays) {
 
 bool is_shadowed_in(int frame, const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,
                     const ShadowSegment& segment) {
-  const SurfaceSet& surfaces = hub.frames[static_cast<std::size_t>(frame)].scene->surfaces;
+  const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(frame)].scene->surfaces;
   if (frame == hit.frame) {
     return surfaces.blocked(segment.start_in_surface_frame, segment.direction_in_surface_frame, 0.0,
                             segment.end, segment.clock_in_surface_frame);

@@ -83,7 +83,7 @@ struct Seen {
 
 Seen seen(Scene& scene, const FastRay& ray) {
   for (SceneFrame& frame : scene.frames) {
-    if (frame.surfaces.size() == 0) continue;
+    if (frame.surfaces->size() == 0) continue;
     frame.motion.celerity = ExtendedVec3{ray.celerity};
     frame.motion.origin = {Extended(0.0), ExtendedVec3{ray.origin}};
   }

@@ -17,14 +17,7 @@ std::string text_of(const Diagnostics& diagnostics) {
   return all;
 }
 
-Rendering render(ReadResult read, const RenderChoices& choices) {
-  if (!read.description || read.diagnostics.has_errors()) throw std::runtime_error(text_of(read.diagnostics));
-  ImageRequest request;
-  request.time = choices.time;
-  request.frame = choices.frame;
-  ResourceCache resources;
-  Diagnostics diagnostics;
-  std::optional<Scene> scene = compile(*read.description, request, resources, diagnostics);
+Rendering rendered(std::optional<Scene> scene, const Diagnostics& diagnostics, const RenderChoices& choices) {
   if (!scene) throw std::runtime_error(text_of(diagnostics));
   RenderSettings settings;
   settings.threads = choices.threads;
@@ -35,6 +28,17 @@ Rendering render(ReadResult read, const RenderChoices& choices) {
   const std::atomic<bool> stop{false};
   std::optional<RenderedImage> result = render_image(*scene, settings, stop, nullptr);
   return {std::move(*scene), std::move(result->image), result->statistics};
+}
+
+Rendering render(ReadResult read, const RenderChoices& choices) {
+  if (!read.description || read.diagnostics.has_errors()) throw std::runtime_error(text_of(read.diagnostics));
+  ImageRequest request;
+  request.time = choices.time;
+  request.frame = choices.frame;
+  ResourceCache resources;
+  Diagnostics diagnostics;
+  std::optional<Scene> scene = compile(*read.description, request, resources, diagnostics);
+  return rendered(std::move(scene), diagnostics, choices);
 }
 
 }  // namespace
@@ -58,6 +62,22 @@ bool Rendering::is_inside(int x, int y) const {
 
 Rendering render_text(const std::string& text, const RenderChoices& choices) {
   return render(read_scene_text(text, "scene.toml", choices.overrides, BACKLIGHT_SOURCE_DIR), choices);
+}
+
+std::vector<Rendering> render_sequence(const std::string& text, const std::vector<int>& frames) {
+  const ReadResult read = read_scene_text(text, "scene.toml", {}, BACKLIGHT_SOURCE_DIR);
+  if (!read.description || read.diagnostics.has_errors()) throw std::runtime_error(text_of(read.diagnostics));
+  ResourceCache resources;
+  SceneCompiler compiler(*read.description, resources, SceneCompiler::Images::several);
+  std::vector<Rendering> all;
+  for (const int frame : frames) {
+    ImageRequest request;
+    request.frame = frame;
+    Diagnostics diagnostics;
+    std::optional<Scene> scene = compiler.compile(request, diagnostics);
+    all.push_back(rendered(std::move(scene), diagnostics, {}));
+  }
+  return all;
 }
 
 Rendering render_file(const std::string& path, const RenderChoices& choices) {

@@ -46,6 +46,10 @@ struct RenderChoices {
 /// Renders a scene given as text. Throws std::runtime_error with the diagnostics when it is wrong.
 Rendering render_text(const std::string& text, const RenderChoices& choices = {});
 
+/// Renders images of an animation given as text one after the other, as a run of the program does: they share
+/// what they can.
+std::vector<Rendering> render_sequence(const std::string& text, const std::vector<int>& frames);
+
 /// Renders a scene file of the project's scenes/ or tests/ folder, by its path from the project's root.
 Rendering render_file(const std::string& path, const RenderChoices& choices = {});
 

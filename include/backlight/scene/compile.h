@@ -1,6 +1,7 @@
 // From a description to the scene as it is true at one image.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,12 +27,40 @@ struct ImageRequest {
   std::optional<std::vector<std::string>> aovs;
 };
 
-/// Evaluates every number for one image, composes the frames, loads what other files hold and builds the
-/// surfaces. Adds what is wrong to `diagnostics`; returns a scene only if they hold no error, those of
-/// reading included.
-///
-/// t = (frame - 1)/fps; without [animation] t = 0. With an explicit time, `frame` is t fps + 1 in an
-/// animation and 1 without.
+struct CompiledParts;
+
+/// Compiles the images of one description, which share what does not depend on t: materials, stars, and the
+/// surfaces of a frame with their search tree, whatever the frame itself does. Whether something depends on t
+/// is read off its formulas. A scene is the same, bit for bit, as if it had been compiled alone.
+class SceneCompiler {
+ public:
+  /// How many images there will be: of one alone, nothing is kept for others.
+  enum class Images { one, several };
+
+  /// The description and the cache must outlive this.
+  SceneCompiler(const Description& description, ResourceCache& cache, Images images);
+  ~SceneCompiler();
+  SceneCompiler(const SceneCompiler&) = delete;
+  SceneCompiler& operator=(const SceneCompiler&) = delete;
+
+  /// Evaluates every number for one image, composes the frames, loads what other files hold and builds the
+  /// surfaces. Adds what is wrong to `diagnostics`; returns a scene only if they hold no error, those of
+  /// reading included. For use by one thread; the scenes may be used by others meanwhile.
+  ///
+  /// t = (frame - 1)/fps; without [animation] t = 0. With an explicit time, `frame` is t fps + 1 in an
+  /// animation and 1 without.
+  std::optional<Scene> compile(const ImageRequest& request, Diagnostics& diagnostics);
+
+ private:
+  void forget();
+
+  const Description& description_;
+  ResourceCache& cache_;
+  Images images_;
+  std::unique_ptr<CompiledParts> parts_;
+};
+
+/// The same for one image alone.
 std::optional<Scene> compile(const Description& description, const ImageRequest& request,
                              ResourceCache& cache, Diagnostics& diagnostics);
 

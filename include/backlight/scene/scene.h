@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "backlight/base/shared_vector.h"
 #include "backlight/camera/projection.h"
 #include "backlight/colour/brightness.h"
 #include "backlight/colour/rgb.h"
@@ -102,7 +103,7 @@ struct Sky {
   Colour radiance;                         ///< uniform: colour or blackbody
   std::shared_ptr<const Texture> texture;  ///< equirectangular, in the frame's axes, or null
   double texture_scale = 1.0;
-  std::vector<Star> stars;
+  SharedVector<Star> stars;
 };
 
 /// One object of the file. Copies made by `repeat` share it.
@@ -117,8 +118,9 @@ struct Object {
 struct SceneFrame {
   std::string name;  ///< as in the file; empty for a frame made by a thing's own velocity
   InertialFrame motion;
-  SurfaceSet surfaces;
-  std::vector<int> object_of_surface;  ///< index into Scene::objects, by surface index
+  /// Never null. Images in which it is the same share it.
+  std::shared_ptr<const SurfaceSet> surfaces = std::make_shared<const SurfaceSet>();
+  SharedVector<int> object_of_surface;  ///< index into Scene::objects, by surface index
 };
 
 struct Stereo {
@@ -151,19 +153,28 @@ struct FilmSettings {
   int wavelengths = 0;    ///< where colours shift; 0: for the program to choose
 };
 
+/// What was made for an image, and what it took over from images before, unchanged.
+struct CompileCounts {
+  std::size_t surfaces_made = 0;  ///< evaluated, placed, and put into search trees
+  std::size_t surfaces_reused = 0;
+  std::size_t materials_made = 0;
+  std::size_t materials_reused = 0;
+};
+
 struct Scene {
   double time = 0.0;   ///< t of the image, in scene seconds: what expressions see
   double frame = 1.0;  ///< number of the image in the animation; not whole for a time between two of them
   double c = 1.0;      ///< scene units of length per second; divides reported times
   std::vector<SceneFrame> frames;  ///< distinct frames; [0] is the world
-  std::vector<Object> objects;
-  std::vector<Material> materials;
+  SharedVector<Object> objects;
+  SharedVector<Material> materials;
   std::vector<Light> lights;
   Sky sky;
   CameraView camera;
   Effects effects;
   std::vector<EffectsRegion> regions;
   FilmSettings film;
+  CompileCounts counts;
 };
 
 /// The effects in force at an image point (pixels of the full image).

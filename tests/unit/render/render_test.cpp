@@ -11,7 +11,6 @@ namespace {
 Scene empty_scene() {
   Scene scene;
   scene.frames.emplace_back();
-  scene.frames[0].surfaces.build();
   scene.film = {40, 30, 4, 0, {"Z", "objectId"}};
   scene.camera.lens.width = 40;
   scene.camera.lens.height = 30;

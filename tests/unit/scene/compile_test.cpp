@@ -18,7 +18,7 @@ constexpr double tight = 1e-14;
 
 // Where a ray along +z from far away first meets what is in the world.
 double first_z(const Scene& scene, double x, double y) {
-  return scene.frames[0].surfaces.nearest({x, y, -100}, {0, 0, 1}).lambda - 100;
+  return scene.frames[0].surfaces->nearest({x, y, -100}, {0, 0, 1}).lambda - 100;
 }
 
 TEST(CompileTime, IsThatOfTheAnimationsFrame) {
@@ -121,12 +121,12 @@ TEST(CompileObjects, CopiesShareNumberAndMaterial) {
                                "[[object]]\nshape = \"plane\"\nposition = [0, -9, 0]\n"
                                "[[object]]\nshape = \"sphere\"\nradius = 0.5\nposition = [1, 0, 0]\n"
                                "repeat = { count = [3, 2, 1], step = [2, 4, 9] }\n");
-  ASSERT_EQ(scene.frames[0].surfaces.size(), 7U);
+  ASSERT_EQ(scene.frames[0].surfaces->size(), 7U);
   EXPECT_EQ(scene.objects.size(), 2U);
   EXPECT_EQ(scene.objects[1].id, 2);
   EXPECT_EQ(scene.frames[0].object_of_surface, (std::vector<int>{0, 1, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(scene.frames[0].surfaces.bounds(2).centre, (Vec3{3, 0, 0}));
-  EXPECT_EQ(scene.frames[0].surfaces.bounds(6).centre, (Vec3{5, 4, 0}));
+  EXPECT_EQ(scene.frames[0].surfaces->bounds(2).centre, (Vec3{3, 0, 0}));
+  EXPECT_EQ(scene.frames[0].surfaces->bounds(6).centre, (Vec3{5, 4, 0}));
 }
 
 TEST(CompileObjects, AreNumberedInFileOrderWhateverTheirFrame) {

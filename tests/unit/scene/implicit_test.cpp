@@ -19,7 +19,7 @@ std::string implicit_object(const std::string& f, const std::string& more = {}) 
 }
 
 double first_z(const Scene& scene, double x, double y, const RayClock& clock = {}) {
-  return scene.frames[0].surfaces.nearest({x, y, -100}, {0, 0, 1}, infinity, clock).lambda - 100;
+  return scene.frames[0].surfaces->nearest({x, y, -100}, {0, 0, 1}, infinity, clock).lambda - 100;
 }
 
 TEST(CompileImplicit, FormulaHasCoordinatesAndParameters) {
@@ -27,7 +27,7 @@ TEST(CompileImplicit, FormulaHasCoordinatesAndParameters) {
       compiled(camera + "[params]\nradius = 2\n" + implicit_object("x^2 + y^2 + z^2 - radius^2"));
   EXPECT_NEAR(first_z(scene, 0, 0), -2.0, 1e-13);
   EXPECT_NEAR(first_z(scene, 1.2, 0), -1.6, 1e-13);
-  EXPECT_FALSE(scene.frames[0].surfaces.nearest({2.1, 0, -100}, {0, 0, 1}).found());
+  EXPECT_FALSE(scene.frames[0].surfaces->nearest({2.1, 0, -100}, {0, 0, 1}).found());
 }
 
 TEST(CompileImplicit, CoordinatesGoBeforeParametersOfTheSameName) {
@@ -47,23 +47,23 @@ TEST(CompileImplicit, TimeIsTheObjectsOwnAlongTheRay) {
 TEST(CompileImplicit, BoundsLeaveASheetOpenAndCloseASolid) {
   const std::string cut = implicit_object("x^2+z^2-1", "bounds = [[-2, -1, -2], [2, 1, 2]]\n");
   const Scene sheet = compiled(camera + cut);
-  EXPECT_FALSE(sheet.frames[0].surfaces.nearest({0, 5, 0}, {0, -1, 0}).found());
-  EXPECT_EQ(sheet.frames[0].surfaces.nearest({0, 0, -5}, {0, 0, 1}).lambda, 4.0);
-  EXPECT_FALSE(sheet.frames[0].surfaces.nearest({0, 1.5, -5}, {0, 0, 1}).found());
+  EXPECT_FALSE(sheet.frames[0].surfaces->nearest({0, 5, 0}, {0, -1, 0}).found());
+  EXPECT_EQ(sheet.frames[0].surfaces->nearest({0, 0, -5}, {0, 0, 1}).lambda, 4.0);
+  EXPECT_FALSE(sheet.frames[0].surfaces->nearest({0, 1.5, -5}, {0, 0, 1}).found());
   const Scene solid = compiled(camera +
                                "[[object]]\nshape = \"union\"\npart = [{ shape = \"implicit\", f = "
                                "\"x^2+z^2-1\", bounds = [[-2, -1, -2], [2, 1, 2]] }]\n");
-  EXPECT_EQ(solid.frames[0].surfaces.nearest({0, 5, 0}, {0, -1, 0}).lambda, 4.0);
+  EXPECT_EQ(solid.frames[0].surfaces->nearest({0, 5, 0}, {0, -1, 0}).lambda, 4.0);
 }
 
 TEST(CompileImplicit, SaysWhetherUnresolvedRootsAreSeen) {
   const std::string doubled = implicit_object("(x^2+y^2+z^2-1)^2");
-  const Hit taken = compiled(camera + doubled).frames[0].surfaces.nearest({0, 0, -5}, {0, 0, 1});
+  const Hit taken = compiled(camera + doubled).frames[0].surfaces->nearest({0, 0, -5}, {0, 0, 1});
   EXPECT_TRUE(taken.unresolved);
   EXPECT_NEAR(taken.lambda, 4.0, 1e-6);
   EXPECT_FALSE(compiled(camera + doubled + "unresolved = \"skip\"\n")
                    .frames[0]
-                   .surfaces.nearest({0, 0, -5}, {0, 0, 1})
+                   .surfaces->nearest({0, 0, -5}, {0, 0, 1})
                    .found());
 }
 
@@ -75,7 +75,7 @@ TEST(CompileBlend, IsThePolynomialSmoothMinimum) {
                "part = [{ shape = \"sphere\", radius = 1, position = [1, 0, 0], material = \"one\" },"
                " { shape = \"implicit\", f = \"sqrt(x^2+y^2+z^2)-1\", position = [-1, 0, 0],"
                " material = \"two\" }]\n");
-  const SurfaceSet& set = scene.frames[0].surfaces;
+  const SurfaceSet& set = *scene.frames[0].surfaces;
   // Half way between the two, a = b: the surface is where a = k/4, at a distance 1 + 0.1 from both centres.
   EXPECT_NEAR(first_z(scene, 0, 0), -std::sqrt(1.1 * 1.1 - 1.0), 1e-13);
   const Hit near_one = set.nearest({1.7, 0, -9}, {0, 0, 1});
@@ -127,8 +127,8 @@ TEST(CompileImplicit, BoundsAreProvedOnceForEachFormula) {
     const auto alone = compile(*read.description, request, fresh, read.diagnostics);
     const auto after_others = compile(*read.description, request, shared, read.diagnostics);
     ASSERT_TRUE(alone && after_others) << testing_scenes::all_messages(read.diagnostics);
-    const double radius = alone->frames[0].surfaces.bounds().radius;
-    EXPECT_EQ(after_others->frames[0].surfaces.bounds().radius, radius) << time;
+    const double radius = alone->frames[0].surfaces->bounds().radius;
+    EXPECT_EQ(after_others->frames[0].surfaces->bounds().radius, radius) << time;
     const double size = std::floor(1.0 + time);
     EXPECT_GE(radius, size);
     EXPECT_LT(radius, 1.8 * size);
@@ -140,7 +140,7 @@ TEST(CompileImplicit, AbsurdFormulasAreErrorsOrEmpty) {
     const std::string text = camera + implicit_object(f, "bounds = [[-1, -1, -1], [1, 1, 1]]\n");
     const std::string said = mistakes(text);
     if (!said.empty()) continue;
-    EXPECT_FALSE(compiled(text).frames[0].surfaces.nearest({0.3, 0.2, -5}, {0, 0, 1}).found()) << f;
+    EXPECT_FALSE(compiled(text).frames[0].surfaces->nearest({0.3, 0.2, -5}, {0, 0, 1}).found()) << f;
   }
 }
 

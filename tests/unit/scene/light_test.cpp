@@ -16,7 +16,7 @@ using testing_scenes::camera;
 using testing_scenes::compiled;
 
 Material material_of(const std::string& keys) {
-  return compiled(camera + "[[object]]\nshape = \"plane\"\nmaterial = { " + keys + " }\n").materials.at(0);
+  return compiled(camera + "[[object]]\nshape = \"plane\"\nmaterial = { " + keys + " }\n").materials.front();
 }
 
 Light light_of(const std::string& keys) {
@@ -190,7 +190,7 @@ TEST(SceneSky, MadeUpStarsAreEvenAndRepeatable) {
   const auto stars = [](const std::string& keys) {
     return compiled(camera + "[background]\nstars = { " + keys + " }\n").sky.stars;
   };
-  const std::vector<Star> sky = stars("count = 9000, seed = 1");
+  const SharedVector<Star> sky = stars("count = 9000, seed = 1");
   ASSERT_EQ(sky.size(), 9000U);
   Vec3 sum{0.0};
   Vec3 squares{0.0};

@@ -87,7 +87,7 @@ TEST(Motion, AtRestIsTheWorldBitForBit) {
         compiled(camera + "[[object]]\nshape = \"sphere\"\nradius = 1\nposition = [0.1, 2, 3]\n" + keys);
     ASSERT_EQ(scene.frames.size(), 1U) << keys;
     EXPECT_EQ(scene.frames[0].motion, InertialFrame{});
-    const BoundingSphere sphere = scene.frames[0].surfaces.bounds(0);
+    const BoundingSphere sphere = scene.frames[0].surfaces->bounds(0);
     EXPECT_EQ(sphere.centre, (Vec3{0.1, 2, 3})) << keys;
   }
 }
@@ -100,7 +100,7 @@ TEST(Motion, AnOwnVelocityMakesAFrameAboutTheThing) {
   const SceneFrame& frame = scene.frames[1];
   EXPECT_EQ(frame.motion.origin.t, Extended(0.0));
   EXPECT_EQ(frame.motion.origin.x.rounded(), (Vec3{1, 2, 3}));
-  EXPECT_EQ(frame.surfaces.bounds(0).centre, Vec3{0.0});
+  EXPECT_EQ(frame.surfaces->bounds(0).centre, Vec3{0.0});
   EXPECT_TRUE(frame.name.empty());
 }
 
@@ -113,8 +113,8 @@ TEST(Motion, ThingsOfOneVelocityAndOriginShareAFrame) {
                "[[light]]\nvelocity = [1, 0, 0]\n");
   ASSERT_EQ(scene.frames.size(),
             3U);  // the world, that of three spheres and the light, and the last sphere's
-  EXPECT_EQ(scene.frames[1].surfaces.size(), 3U);
-  EXPECT_EQ(scene.frames[2].surfaces.size(), 1U);
+  EXPECT_EQ(scene.frames[1].surfaces->size(), 3U);
+  EXPECT_EQ(scene.frames[2].surfaces->size(), 1U);
   EXPECT_EQ(scene.lights[0].frame, 1);
   EXPECT_EQ(scene.frames[1].name, "a");
 }

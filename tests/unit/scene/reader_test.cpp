@@ -73,7 +73,7 @@ TEST_F(SceneFiles, TheIncludersParametersReplaceTheIncludeds) {
   write("a.toml",
         "[params]\nr = 1\nh = \"2*r\"\n[[object]]\nshape = \"cylinder\"\nradius = \"r\"\nheight = \"h\"\n");
   const Scene s = scene("main.toml");
-  EXPECT_NEAR(s.frames[0].surfaces.bounds(0).radius, std::sqrt(18.0), 1e-11);
+  EXPECT_NEAR(s.frames[0].surfaces->bounds(0).radius, std::sqrt(18.0), 1e-11);
 }
 
 TEST_F(SceneFiles, UnusedDefinitionsOfIncludedFilesAreNoMistake) {
@@ -123,10 +123,10 @@ TEST(SceneOverrides, ReplaceAndAdd) {
   EXPECT_EQ(s.camera.lens.projection, Projection::fisheye);
   EXPECT_EQ(s.film.samples, 9);
   EXPECT_EQ(s.film.height, 20);
-  EXPECT_EQ(s.frames[1].surfaces.bounds(0).centre, (Vec3{1, 2, 3}));
+  EXPECT_EQ(s.frames[1].surfaces->bounds(0).centre, (Vec3{1, 2, 3}));
   EXPECT_NEAR(double(s.frames[1].motion.celerity[0]), 0.25 / std::sqrt(1 - 0.0625), 1e-16);
   EXPECT_EQ(s.objects[1].name, "second");
-  EXPECT_NEAR(s.frames[0].surfaces.bounds(0).radius, 2.0, 1e-11);
+  EXPECT_NEAR(s.frames[0].surfaces->bounds(0).radius, 2.0, 1e-11);
   EXPECT_EQ(s.camera.proper_time, 2.0);
   EXPECT_FALSE(s.effects.doppler);
 }
@@ -153,7 +153,7 @@ TEST(SceneReader, NumbersMayBeFormulasAnywhere) {
                            "repeat = { count = [\"n\", \"n + 1\", 1], step = [\"1/n\", 1, 1] }\n" +
                            "[background]\nstars = { count = \"5*n\" }\n");
   EXPECT_EQ(s.film.width, 64);
-  EXPECT_EQ(s.frames[0].surfaces.size(), 6U);
+  EXPECT_EQ(s.frames[0].surfaces->size(), 6U);
   EXPECT_EQ(s.sky.stars.size(), 10U);
 }
 

@@ -25,7 +25,7 @@ struct Seen {
 };
 
 Seen look(const Scene& scene, double x, double y, double from = -50) {
-  const SurfaceSet& surfaces = scene.frames[0].surfaces;
+  const SurfaceSet& surfaces = *scene.frames[0].surfaces;
   const Vec3 origin{x, y, from};
   const Hit hit = surfaces.nearest(origin, {0, 0, 1});
   if (!hit.found()) return {0.0, "nothing"};
@@ -50,7 +50,7 @@ TEST(CompileSolids, PartsArePlacedWithinTheirWhole) {
 
 TEST(CompileSolids, PartsInheritTheMaterialOfTheirWhole) {
   const Scene scene = compiled(holed);
-  const SurfaceSet& surfaces = scene.frames[0].surfaces;
+  const SurfaceSet& surfaces = *scene.frames[0].surfaces;
   const Hit hit = surfaces.nearest({10.25, 0, -0.8}, {1, 0, 0});  // the cylinder's wall
   const SurfacePoint point = surfaces.resolve(hit, {10.25, 0, -0.8}, {1, 0, 0});
   const int material = scene.objects[0].member_materials[static_cast<std::size_t>(point.member)];

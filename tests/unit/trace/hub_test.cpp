@@ -12,9 +12,11 @@ namespace {
 SceneFrame frame_of(const Vec3& celerity, const Vec3& origin, double radius) {
   SceneFrame frame;
   frame.motion = {ExtendedVec3{celerity}, {Extended(0.0), ExtendedVec3{origin}}};
-  if (radius > 0.0) frame.surfaces.add(sphere(radius), Placement{});
-  frame.surfaces.build();
-  frame.object_of_surface.assign(frame.surfaces.size(), 0);
+  SurfaceSet surfaces;
+  if (radius > 0.0) surfaces.add(sphere(radius), Placement{});
+  surfaces.build();
+  frame.object_of_surface = std::vector<int>(surfaces.size(), 0);
+  frame.surfaces = std::make_shared<const SurfaceSet>(std::move(surfaces));
   return frame;
 }
 
