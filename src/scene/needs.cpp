@@ -93,8 +93,8 @@ void choose_model(const Scene& scene, Needs& needs) {
 }
 
 void count_roots(const SceneFrame& frame, std::vector<RootSearch>& roots) {
-  for (std::size_t i = 0; i < frame.surfaces.size(); ++i) {
-    const Shape& shape = frame.surfaces.shape(static_cast<int>(i));
+  for (std::size_t i = 0; i < frame.surfaces->size(); ++i) {
+    const Shape& shape = frame.surfaces->shape(static_cast<int>(i));
     // Elsewhere the kind decides: no words are made for each of 100,000 spheres.
     const bool differs_within_kind = shape.formula != nullptr || shape.solid != nullptr;
     const auto is_like = [&](const RootSearch& search) {

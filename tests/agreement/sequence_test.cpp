@@ -64,7 +64,7 @@ std::vector<Case> cases() {
       {"more copies",
        still + sphere_at(2, -1,
                          "frame = \"train\"\nrepeat = { count = [\"1 + frame\", 1, 1], step = [0.2, 0, 0] }"),
-       3, 4},
+       3, 5},
       {"a pulse in its own time",
        still + "[[object]]\nshape = \"implicit\"\nf = \"x^2 + y^2 + z^2 - 0.2 - 0.1*sin(3*t)\"\n"
                "bounds = [[-1, -1, -1], [1, 1, 1]]\nposition = [2, 0, 0]\n",

@@ -11,9 +11,11 @@ Scene spheres(int moving, int resting) {
   const auto add_frame = [&scene](double celerity, int count) {
     SceneFrame frame;
     frame.motion.celerity = ExtendedVec3{Vec3{celerity, 0.0, 0.0}};
-    for (int i = 0; i < count; ++i) frame.surfaces.add(sphere(1.0), Placement{});
-    frame.surfaces.build();
-    frame.object_of_surface.assign(frame.surfaces.size(), 0);
+    SurfaceSet surfaces;
+    for (int i = 0; i < count; ++i) surfaces.add(sphere(1.0), Placement{});
+    surfaces.build();
+    frame.object_of_surface = std::vector<int>(surfaces.size(), 0);
+    frame.surfaces = std::make_shared<const SurfaceSet>(std::move(surfaces));
     scene.frames.push_back(std::move(frame));
   };
   add_frame(0.0, resting);
