@@ -184,7 +184,8 @@ void add_output_flags(CLI::App& app, RenderOptions& options) {
       ->group(group);
   add_flag(app, "--png", options.png, "write a PNG to look at beside each EXR")->group(group);
   add_value(app, "--stats", "FILE",
-            "write one JSON object for each image, a line each: time, rays, pixels that are not finite...",
+            "write one JSON object for each image, a line each: time, rays, pixels that are not finite... "
+            "(- for standard output)",
             parse_text, [&options](std::string file) { options.statistics = file; })
       ->group(group);
 }

@@ -74,7 +74,9 @@ Result<StatisticsFile> StatisticsFile::open(const std::filesystem::path& path, b
   statistics.path_ = path;
   if (path.empty()) return statistics;
   statistics.file_.rdbuf()->pubsetbuf(nullptr, 0);
-  statistics.file_.open(path, append ? std::ios::app : std::ios::trunc);
+  const bool to_output = path == "-";
+  if (to_output) statistics.path_ = "/dev/stdout";
+  statistics.file_.open(statistics.path_, append || to_output ? std::ios::app : std::ios::trunc);
   if (!statistics.file_) return cannot_write(path);
   return statistics;
 }

@@ -20,8 +20,8 @@ std::string statistics_json(const Scene& scene, const Needs& needs, const Render
 /// The file of --stats: each line is whole on the disk before the next image begins.
 class StatisticsFile {
  public:
-  /// Begins an empty file, or goes on at the end of one. With an empty path nothing is written, ever. Several
-  /// processes may append to one file: each line is written at once.
+  /// Begins an empty file, or goes on at the end of one. With an empty path nothing is written, ever; "-" is
+  /// the standard output. Several processes may append to one file: each line is written at once.
   static Result<StatisticsFile> open(const std::filesystem::path& path, bool append);
 
   Result<void> write(const std::string& line);

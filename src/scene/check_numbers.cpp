@@ -21,21 +21,16 @@ void NumberCheck::number(Node& node, const Key& key) {
     node.value = Invalid{};
     return;
   }
-  auto parsed = Expression::parse(*text, description_.variables);
-  if (const auto* wrong = std::get_if<ExpressionError>(&parsed)) {
-    expression_error(node, *wrong);
-    node.value = Invalid{};
-    return;
-  }
-  Expression expression = std::get<Expression>(std::move(parsed));
-  for (std::size_t i = 0; i < used_.size(); ++i) {
-    if (expression.uses(i)) used_[i] = true;
-  }
-  node.value = std::move(expression);
+  parse(node, description_.variables, 0);
 }
 
 void NumberCheck::formula(Node& node) {
-  auto parsed = Expression::parse(*node.text(), formula_variables(description_));
+  parse(node, formula_variables(description_), formula_coordinates);
+}
+
+/// Makes the node's text an expression of `variables`, of which those from `first` on are the description's.
+void NumberCheck::parse(Node& node, const std::vector<std::string>& variables, std::size_t first) {
+  auto parsed = Expression::parse(*node.text(), variables);
   if (const auto* wrong = std::get_if<ExpressionError>(&parsed)) {
     expression_error(node, *wrong);
     node.value = Invalid{};
@@ -43,7 +38,7 @@ void NumberCheck::formula(Node& node) {
   }
   Expression expression = std::get<Expression>(std::move(parsed));
   for (std::size_t i = 0; i < used_.size(); ++i) {
-    if (expression.uses(formula_coordinates + i)) used_[i] = true;
+    if (expression.uses(first + i)) used_[i] = true;
   }
   node.value = std::move(expression);
 }

@@ -28,6 +28,7 @@ class NumberCheck {
   [[nodiscard]] const std::vector<bool>& used() const { return used_; }
 
  private:
+  void parse(Node& node, const std::vector<std::string>& variables, std::size_t first);
   void error(const Place& place, std::string message, std::string hint = {});
   void expression_error(const Node& node, const ExpressionError& wrong);
 

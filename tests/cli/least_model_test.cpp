@@ -35,6 +35,12 @@ class LeastModel : public ProgramTest {
   }
 };
 
+TEST_F(LeastModel, StatisticsGoToTheOutputForADash) {
+  write("scene.toml", film + sphere);
+  const Outcome outcome = run({"scene.toml", "-q", "-o", "a.exr", "--stats", "-"});
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["file"], "a.exr");
+}
+
 TEST_F(LeastModel, OpenImageIoIsLoadedForTexturesAndPngAlone) {
   EXPECT_FALSE(loads("libOpenImageIO", film + sphere + lamp));
   EXPECT_FALSE(loads("backlight_oiio", film + sphere + "beta = [0.5, 0, 0]\n" + lamp));
