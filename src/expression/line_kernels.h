@@ -2,6 +2,7 @@
 // width of the lanes; compiled with -frounding-math.
 #pragma once
 
+#include "lane_affine.h"
 #include "lane_numbers.h"
 #include "line_work.h"
 
@@ -26,11 +27,28 @@ BACKLIGHT_LANES void store(double* to, std::size_t, LaneNumber<V> number) {
   number.v.store(to);
 }
 
+template <class V>
+BACKLIGHT_LANES void load(const double* from, std::size_t stride, LaneAffine<V>& number) {
+  number.centre = V::load(from);
+  number.slope = V::load(from + stride);
+  number.error = V::load(from + 2 * stride);
+}
+template <class V>
+BACKLIGHT_LANES void store(double* to, std::size_t stride, LaneAffine<V> number) {
+  number.centre.store(to);
+  number.slope.store(to + stride);
+  number.error.store(to + 2 * stride);
+}
+
 template <class N>
 struct Components;  ///< how many arrays one number takes
 template <class V>
 struct Components<LaneBounds<V>> {
   static constexpr std::size_t count = 2;
+};
+template <class V>
+struct Components<LaneAffine<V>> {
+  static constexpr std::size_t count = 3;
 };
 template <class V>
 struct Components<LaneNumber<V>> {
@@ -151,11 +169,28 @@ class LineKernel {
   }
 };
 
+/// The affine form of each piece, and where it leaves room for zeros. An empty region: first = to, last =
+/// from.
+template <class V>
+void run_zeros(const LineWork& work) {
+  LineKernel<LaneAffine<V>, V, false>::run(work);
+  for (std::size_t k = 0; k < work.stride; k += V::width) {
+    LaneAffine<V> form;
+    load(work.registers + k, work.stride, form);
+    const V from = V::load(work.from + k);
+    const V to = V::load(work.to + k);
+    const LaneZeros<V> zeros = zeros_of(form, from, to);
+    select(zeros.none, to, zeros.first).store(work.found[0] + k);
+    select(zeros.none, from, zeros.last).store(work.found[1] + k);
+    zeros.sign.store(work.found[2] + k);
+  }
+}
+
 template <int width>
 LineKernels line_kernels() {
   using V = Lanes<width>;
   return {LineKernel<LaneBounds<V>, V, true>::run, LineKernel<LaneBounds<V>, V, false>::run,
-          LineKernel<LaneNumber<V>, V, true>::run};
+          LineKernel<LaneNumber<V>, V, true>::run, run_zeros<V>};
 }
 
 }  // namespace backlight

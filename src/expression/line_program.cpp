@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "backlight/expression/affine.h"
 #include "backlight/expression/enclosure.h"
 #include "line_work.h"
 #include "rounding.h"
@@ -41,7 +42,7 @@ void fill_up(LineBatch& lines, std::size_t count) {
   }
 }
 
-enum class Question { piece, point };
+enum class Question { piece, point, zeros };
 
 /// Runs the kernels of one question on the first `count` lines, a multiple of the padding.
 class Run {
@@ -53,7 +54,7 @@ class Run {
   [[gnu::noinline]] bool bounds(Question question, std::size_t count) {
     const LineWork work = work_on(count, question == Question::point);
     const RoundUp mode;
-    (question == Question::piece ? kernels_.pieces : kernels_.points)(work);
+    kernel_of(question)(work);
     return !mode.failed();
   }
 
@@ -64,6 +65,11 @@ class Run {
   }
 
  private:
+  [[nodiscard]] auto kernel_of(Question question) const -> void (*)(const LineWork&) {
+    if (question == Question::zeros) return kernels_.zeros;
+    return question == Question::piece ? kernels_.pieces : kernels_.points;
+  }
+
   LineWork work_on(std::size_t count, bool at_point) {
     LineWork work;
     work.steps = program_.steps().data();
@@ -77,6 +83,9 @@ class Run {
     work.to = at_point ? lines_.from() : lines_.to();
     if (workspace_.size() < program_.workspace(count)) workspace_.resize(program_.workspace(count));
     work.registers = workspace_.data();
+    work.found[0] = lines_.first_zero();
+    work.found[1] = lines_.last_zero();
+    work.found[2] = lines_.sign();
     work.stride = count;
     return work;
   }
@@ -96,6 +105,14 @@ void enclose_carefully(const LineProgram& program, LineBatch& lines, std::size_t
     direction[v] = lines.direction(v)[i];
   }
   const VariableLine line{origin, direction};
+  if (question == Question::zeros) {
+    const ZeroRegion zeros = enclose_zeros(program.tape(), line, lines.from()[i], lines.to()[i]);
+    lines.first_zero()[i] = zeros.first;
+    lines.last_zero()[i] = zeros.last;
+    lines.sign()[i] = zeros.sign;
+    lines.continuity()[i] = static_cast<double>(zeros.continuity);
+    return;
+  }
   if (question == Question::point) {
     const Interval value = enclose(program.tape(), line, lines.from()[i]);
     lines.lower()[i] = value.lower;
@@ -112,10 +129,11 @@ void enclose_carefully(const LineProgram& program, LineBatch& lines, std::size_t
 }
 
 void take(const Run& run, LineBatch& lines, std::size_t count, std::size_t wanted, Question question) {
+  std::fill_n(lines.continuity(), wanted, 0.0);
+  if (question == Question::zeros) return;  // the kernel wrote them where they belong
   for (std::size_t i = 0; i < wanted; ++i) {
     lines.lower()[i] = -run.result(0, count)[i];
     lines.upper()[i] = run.result(1, count)[i];
-    lines.continuity()[i] = 0.0;
     if (question == Question::piece) {
       lines.slope_lower()[i] = -run.result(2, count)[i];
       lines.slope_upper()[i] = run.result(3, count)[i];
@@ -185,6 +203,10 @@ std::size_t LineProgram::workspace(std::size_t count) const {
 
 void LineProgram::enclose_pieces(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const {
   enclose_lines(*this, lines, count, workspace, Question::piece);
+}
+
+void LineProgram::enclose_zeros(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const {
+  enclose_lines(*this, lines, count, workspace, Question::zeros);
 }
 
 void LineProgram::enclose_points(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const {

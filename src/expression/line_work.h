@@ -10,7 +10,7 @@ namespace backlight {
 
 /// Plain pointers, so that files for wider instruction sets need no library. A register is `stride` doubles
 /// for each of its components (for bounds: -lower, upper, and the same of the slope; for numbers: value and
-/// slope), one after the other.
+/// slope; for affine forms: centre, slope and error), one after the other.
 struct LineWork {
   const LineProgram::Step* steps;
   std::size_t step_count;
@@ -20,6 +20,7 @@ struct LineWork {
   const double* from;
   const double* to;
   double* registers;
+  double* found[3];    ///< of zeros: first, last, sign
   std::size_t stride;  ///< a multiple of LineBatch::padding: the lines that are computed
 };
 
@@ -28,6 +29,7 @@ struct LineKernels {
   void (*pieces)(const LineWork&);
   void (*points)(const LineWork&);
   void (*numbers)(const LineWork&);
+  void (*zeros)(const LineWork&);
 };
 
 LineKernels baseline_line_kernels();
@@ -41,6 +43,9 @@ void bounds_of_each(Operation operation, std::size_t lanes, const double* a_minu
 
 /// The same for numbers.
 void number_of_each(Operation operation, std::size_t lanes, const double* a, const double* b, double* value);
+
+/// The same for affine forms: centres, slopes and errors of a, then of b; those of the result.
+void affine_of_each(Operation operation, std::size_t lanes, const double* operands, double* results);
 
 /// Makes RoundUp::failed() true: a result of the kernel is not to be used.
 void note_trouble();

@@ -109,15 +109,16 @@ std::optional<Shape> finished(Compilation& c, const TableView& table, std::strin
                 "write the two corners of a box to show it in: bounds = [[-2, -2, -2], [2, 2, 2]]");
     return std::nullopt;
   }
-  const Shape shape =
-      implicit(formula, bounds->low, bounds->high, {read_unresolved(table), 1.0 / c.scene.c, blend});
-  if (const std::string wrong = problem(shape); !wrong.empty()) {
+  ImplicitOptions options{read_unresolved(table), 1.0 / c.scene.c, blend, RootFinder::interval};
+  if (const std::string wrong = problem(implicit(formula, bounds->low, bounds->high, options));
+      !wrong.empty()) {
     table.error("bounds", wrong,
                 "they are " + number_list(bounds->low) + " and " + number_list(bounds->high));
     return std::nullopt;
   }
   if (!makes_sense(table, key, *formula, *bounds)) return std::nullopt;
-  return shape;
+  options.finder = c.cache.root_finder(*formula, *bounds);
+  return implicit(formula, bounds->low, bounds->high, options);
 }
 
 }  // namespace

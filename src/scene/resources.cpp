@@ -167,4 +167,15 @@ std::optional<FormulaBounds> ResourceCache::bounds(const ImplicitFormula& formul
   return there->second;
 }
 
+RootFinder ResourceCache::root_finder(const ImplicitFormula& formula, const FormulaBounds& bounds) {
+  std::vector<std::uint64_t> key = numbers_of(formula.expression().tape());
+  for (int axis = 0; axis < 3; ++axis) {
+    key.push_back(std::bit_cast<std::uint64_t>(bounds.low[axis]));
+    key.push_back(std::bit_cast<std::uint64_t>(bounds.high[axis]));
+  }
+  const auto known = finders_.find(key);
+  if (known != finders_.end()) return known->second;
+  return finders_[key] = choose_root_finder(formula, bounds.low, bounds.high);
+}
+
 }  // namespace backlight

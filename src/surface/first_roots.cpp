@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "affine_search.h"
 #include "line_search.h"
 
 namespace backlight {
@@ -30,8 +31,15 @@ Memory& memory_of_thread() {
 
 class SideBySide {
  public:
-  SideBySide(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots)
-      : f_(f), program_(f.program()), pieces_(pieces), roots_(roots), m_(memory_of_thread()) {}
+  SideBySide(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
+             RootWork& work)
+      : f_(f),
+        program_(f.program()),
+        pieces_(pieces),
+        roots_(roots),
+        work_(work),
+        m_(memory_of_thread()),
+        most_pieces_(most_pieces(work)) {}
 
   void run() {
     next_ = std::min(window, pieces_.size());
@@ -39,7 +47,7 @@ class SideBySide {
     m_.piece_of.clear();
     m_.live.clear();
     for (std::size_t i = 0; i < next_; ++i) {
-      m_.searches.emplace_back(pieces_[i]);
+      m_.searches.emplace_back(pieces_[i], most_pieces_);
       m_.piece_of.push_back(i);
       m_.live.push_back(i);
     }
@@ -61,7 +69,7 @@ class SideBySide {
       }
       report(m_.piece_of[i], m_.searches[i]);
       if (next_ < pieces_.size()) {
-        m_.searches[i] = LineSearch(pieces_[next_]);
+        m_.searches[i] = LineSearch(pieces_[next_], most_pieces_);
         m_.piece_of[i] = next_++;
       } else {
         m_.live[k] = m_.live.back();
@@ -73,9 +81,7 @@ class SideBySide {
   void report(std::size_t piece, const LineSearch& search) {
     const LinePiece& p = pieces_[piece];
     if (search.has_given_up()) {
-      RootWalk walk(f_, p, p.from, p.to);
-      Root root;
-      roots_[piece] = walk.next(root) ? root : no_root();
+      roots_[piece] = walked_root(f_, p, work_);
     } else {
       roots_[piece] = search.has_root() ? search.root() : no_root();
     }
@@ -109,6 +115,7 @@ class SideBySide {
         collect([](const LineSearch& s) { return s.asks_piece(); },
                 [](const LineSearch& s) { return s.begin(); }, [](const LineSearch& s) { return s.end(); });
     program_.enclose_pieces(m_.batch, count, m_.workspace);
+    work_.cells += count;
     for (std::size_t k = 0; k < count; ++k) {
       m_.searches[m_.asking[k]].piece_is(value(k), m_.batch.slope_lower()[k], m_.batch.slope_upper()[k]);
     }
@@ -118,6 +125,7 @@ class SideBySide {
     const auto at = [](const LineSearch& s) { return s.point(); };
     const std::size_t count = collect([](const LineSearch& s) { return s.asks_point(); }, at, at);
     program_.enclose_points(m_.batch, count, m_.workspace);
+    work_.points += count;
     for (std::size_t k = 0; k < count; ++k) m_.searches[m_.asking[k]].point_is(value(k));
   }
 
@@ -125,6 +133,7 @@ class SideBySide {
     const auto at = [](const LineSearch& s) { return s.point(); };
     const std::size_t count = collect([](const LineSearch& s) { return s.asks_number(); }, at, at);
     program_.numbers(m_.batch, count, m_.workspace);
+    work_.polish += count;
     for (std::size_t k = 0; k < count; ++k) {
       m_.searches[m_.asking[k]].number_is(m_.batch.value()[k], m_.batch.slope()[k]);
     }
@@ -134,20 +143,39 @@ class SideBySide {
   const LineProgram& program_;
   std::span<const LinePiece> pieces_;
   std::span<Root> roots_;
+  RootWork& work_;
   Memory& m_;
+  int most_pieces_;
   std::size_t next_ = 0;
 };
 
 }  // namespace
 
-void first_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots) {
-  SideBySide(f, pieces, roots).run();
+Root walked_root(const ImplicitFormula& f, const LinePiece& piece, RootWork& work) {
+  ++work.given_up;
+  if (work.only_count) return no_root();
+  RootWalk walk(f, piece, piece.from, piece.to);
+  Root root;
+  const bool any = walk.next(root);
+  work.walked += walk.work().cells + walk.work().points + walk.work().polish;
+  return any ? root : no_root();
 }
 
-Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to) {
+void first_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
+                 RootFinder finder, RootWork* work) {
+  if (finder == RootFinder::affine) {
+    first_roots_by_forms(f, pieces, roots, work);
+    return;
+  }
+  RootWork own;
+  SideBySide(f, pieces, roots, work != nullptr ? *work : own).run();
+}
+
+Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to,
+                RootFinder finder) {
   const LinePiece piece{line, from, to};
   Root root;
-  first_roots(f, {&piece, 1}, {&root, 1});
+  first_roots(f, {&piece, 1}, {&root, 1}, finder);
   return root;
 }
 

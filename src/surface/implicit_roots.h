@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "backlight/surface/implicit.h"
+#include "backlight/surface/shape.h"
 
 namespace backlight {
 
@@ -60,22 +61,38 @@ inline bool found(const Root& root) {
   return root.t < std::numeric_limits<double>::infinity();
 }
 
+/// How much work a search was; for the choice between searches, tests and charts.
+struct RootWork {
+  std::size_t cells = 0;     ///< pieces of the line over which f and its slope were enclosed
+  std::size_t points = 0;    ///< points at which f was enclosed
+  std::size_t polish = 0;    ///< evaluations of f and its slope in double precision
+  std::size_t forms = 0;     ///< pieces over which f was enclosed by an affine form
+  std::size_t walked = 0;    ///< all of these that were done one line at a time, by RootWalk
+  std::size_t given_up = 0;  ///< lines that were left to RootWalk
+  /// Such lines are counted, and have no root. Lines of more than 200 pieces are among them.
+  bool only_count = false;
+};
+
 /// The first root on each piece, or no_root(). The lines are searched side by side, over lanes; what is found
 /// of one does not depend on the others (line_search.h).
-void first_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots);
+/// `finder`: interval or affine. The work is added to `work`, if that is not null.
+void first_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
+                 RootFinder finder = RootFinder::interval, RootWork* work = nullptr);
 
 /// The same of one piece.
-Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to);
+Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to,
+                RootFinder finder = RootFinder::interval);
 
 /// Adds a root to what roots_solved_by_this_thread() says (surface/implicit_surface.h).
 void count_root_solved();
 
-/// How much work the last search was; for tests and charts.
-struct RootWork {
-  std::size_t cells = 0;   ///< pieces of the line over which f and its slope were enclosed
-  std::size_t points = 0;  ///< points at which f was enclosed
-  std::size_t polish = 0;  ///< evaluations of f and its slope in double precision
-};
+/// Lines on which f has more pieces are RootWalk's.
+inline int most_pieces(const RootWork& work) {
+  return work.only_count ? 200 : 2000;
+}
+
+/// The first root on a line that a search gave up, by RootWalk.
+Root walked_root(const ImplicitFormula& f, const LinePiece& piece, RootWork& work);
 
 /// Walks the roots one after the other: `next` finds the first one beyond those found before.
 class RootWalk {

@@ -16,6 +16,7 @@ namespace {
 // Beside the two corners, `values` of an implicit shape hold:
 constexpr std::size_t time_scale = 6;  // seconds_per_length
 constexpr std::size_t skips = 7;       // 1: unresolved roots are no surface
+constexpr std::size_t forms = 8;       // 1: first roots are found by affine forms
 
 constexpr int caps = 1;  // parts 1..6: the faces of the bounds, where they cut the inside
 
@@ -86,6 +87,10 @@ int member_at(const Shape& shape, const Vec3& p, double time) {
   return member;
 }
 
+RootFinder finder_of(const Shape& shape) {
+  return shape.values[forms] != 0.0 ? RootFinder::affine : RootFinder::interval;
+}
+
 Crossing crossing_of(const Root& root) {
   return {root.t, 0, root.kind == RootKind::unresolved};
 }
@@ -132,7 +137,7 @@ void first_crossings_of(const Shape& shape, std::span<const LocalLine> lines, do
     q.line_of.push_back(i);
   }
   q.roots.resize(q.pieces.size());
-  first_roots(*shape.formula, q.pieces, q.roots);
+  first_roots(*shape.formula, q.pieces, q.roots, finder_of(shape));
   for (std::size_t k = 0; k < q.pieces.size(); ++k) {
     if (!found(q.roots[k])) continue;
     ++roots_solved;
@@ -213,10 +218,6 @@ LocalPoint point_of(const Shape& shape, const LocalLine& in_frame_time, const Cr
   return result;
 }
 
-RootFinder finder_of(const Shape& /*shape*/) {
-  return RootFinder::interval;
-}
-
 }  // namespace
 
 const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",         true,         problem_of,
@@ -242,6 +243,9 @@ Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high,
   shape.values[skips] = options.unresolved == UnresolvedRoots::skip ? 1.0 : 0.0;
   shape.formula = std::move(f);
   shape.blend = options.blend;
+  if (!problem_of(shape).empty()) return shape;
+  const RootFinder finder = options.finder ? *options.finder : choose_root_finder(*shape.formula, low, high);
+  shape.values[forms] = finder == RootFinder::affine ? 1.0 : 0.0;
   return shape;
 }
 

@@ -18,8 +18,6 @@ constexpr double growth = 1.5;
 /// round numbers are left behind.
 constexpr double shorter = 0.61803398874989485;
 
-/// Lines on which f has more pieces are RootWalk's.
-constexpr int most_steps = 2000;
 constexpr int most_polish_steps = 60;
 
 /// The sign of all numbers in the interval, or 0.
@@ -34,11 +32,12 @@ double distance_from_zero(const Interval& value) {
 
 }  // namespace
 
-LineSearch::LineSearch(const LinePiece& piece)
+LineSearch::LineSearch(const LinePiece& piece, int most_steps)
     : piece_(&piece),
       begin_(piece.from),
       end_(piece.from + first_part * (piece.to - piece.from)),
-      step_(end_ - begin_) {
+      step_(end_ - begin_),
+      steps_left_(most_steps) {
   double size = std::max(std::abs(piece.from), std::abs(piece.to));
   for (std::size_t v = 0; v < 3; ++v) size = std::max(size, std::abs(piece.origin[v]));
   least_ = 16.0 * epsilon * size;
@@ -51,7 +50,7 @@ void LineSearch::ask_point(State state, double at) {
 }
 
 void LineSearch::piece_is(const Interval& value, double slope_lower, double slope_upper) {
-  if (value.continuity >= Continuity::defined || ++steps_ > most_steps) {
+  if (value.continuity >= Continuity::defined || --steps_left_ < 0) {
     state_ = State::given_up;
   } else if (value.lower > 0.0 || value.upper < 0.0) {
     advance(sign_of(value), distance_from_zero(value));

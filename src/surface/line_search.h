@@ -14,7 +14,7 @@ namespace backlight {
 class LineSearch {
  public:
   /// The piece must outlive the search.
-  explicit LineSearch(const LinePiece& piece);
+  LineSearch(const LinePiece& piece, int most_steps);
 
   [[nodiscard]] const LinePiece& piece() const { return *piece_; }
   [[nodiscard]] bool is_finished() const { return state_ >= State::without_root; }
@@ -51,7 +51,7 @@ class LineSearch {
   double step_;   ///< length of the next piece
   double least_;  ///< pieces are not made shorter: a few roundings of the coordinates
   double point_ = 0.0;
-  int steps_ = 0;
+  int steps_left_;
 
   // The sign of f at the ends, 0 if not known, and a lower bound of |f| there.
   int sign_begin_ = 0;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "backlight/expression/affine.h"
 #include "backlight/expression/enclosure.h"
 #include "backlight/expression/expression.h"
 
@@ -52,6 +53,32 @@ void check_line(const Expression& f, const std::vector<double>& origin,
   require(middle.continuity == Continuity::continuous, "a point of a continuous cell is not");
 }
 
+/// The form of a piece holds the values at its points, and no zero is outside the region that it leaves.
+void check_form(const Expression& f, const std::vector<double>& origin,
+                const std::vector<double>& direction) {
+  const VariableLine line{origin, direction};
+  const double from = -0.5;
+  const double to = 0.25;
+  const AffineForm form = enclose_affine(f.tape(), line, from, to);
+  require(!std::isnan(form.centre) && !std::isnan(form.slope) && form.error >= 0.0, "a form is not one");
+  if (form.continuity >= Continuity::defined || std::isinf(form.error)) return;
+  const ZeroRegion zeros = enclose_zeros(f.tape(), line, from, to);
+  require(zeros.empty() || (zeros.first >= from && zeros.last <= to), "zeros are outside the piece");
+  for (const double part : {-1.0, -0.5, 0.0, 0.25, 1.0}) {
+    const double s = -0.125 + 0.375 * part;  // exact
+    const Interval value = enclose(f.tape(), line, s);
+    const double middle = form.centre + part * form.slope;
+    const double room = 4e-16 * (std::abs(form.centre) + std::abs(form.slope) + form.error);
+    require(value.lower <= middle + form.error + room && value.upper >= middle - form.error - room,
+            "a value is outside its form");
+    const int sign = value.lower > 0.0 ? 1 : value.upper < 0.0 ? -1 : 0;
+    const bool before = zeros.empty() || s < zeros.first;
+    require(!before || sign == 0 || sign == zeros.sign, "a sign before the zeros is another one");
+    require(zeros.empty() || s <= zeros.last || sign == 0 || sign == -zeros.sign,
+            "a sign behind the zeros is another one");
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -74,5 +101,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check_box(expression, {0.5, 2.0, -1.0}, {0.5, 2.0, -1.0});
   check_box(expression, {-0.25, 1.0, -2.0}, {0.75, 3.0, -0.5});
   check_line(expression, {0.3, -1.0, 2.0}, {1.0, 0.5, -3.0});
+  check_form(expression, {0.3, -1.0, 2.0}, {1.0, 0.5, -3.0});
+  check_form(expression, {0.0, 0.5, 1.0}, {0.125, 0.0, 1e-6});
   return 0;
 }

@@ -89,6 +89,9 @@ std::string chmutov(int n) {
   return chebyshev(n, "x") + "+" + chebyshev(n, "y") + "+" + chebyshev(n, "z") + "+1";
 }
 
+const std::string expanded_chmutov8 =
+    "128*x^8-256*x^6+160*x^4-32*x^2+128*y^8-256*y^6+160*y^4-32*y^2+128*z^8-256*z^6+160*z^4-32*z^2+4";
+
 struct Named {
   std::string f;
   double half;  // of the bounds; 0: let them be proved
@@ -126,15 +129,17 @@ const std::map<std::string, Named>& formulas() {
   return table;
 }
 
-Shape implicit_shape(const std::string& text, double half) {
+Shape implicit_shape(const std::string& text, double half, RootFinder finder) {
+  ImplicitOptions options;
+  options.finder = finder;
   const double phi = 0.5 * (1.0 + std::sqrt(5.0));
   const auto parsed = Expression::parse(text, {"x", "y", "z", "t", "p"});
   const auto f = std::make_shared<const ImplicitFormula>(
       std::get<Expression>(parsed).bind(ImplicitFormula::variables, std::vector<double>{phi}));
-  if (half > 0.0) return implicit(f, Vec3{-half}, Vec3{half});
+  if (half > 0.0) return implicit(f, Vec3{-half}, Vec3{half}, options);
   const auto bounds = prove_bounds(*f);
   EXPECT_TRUE(bounds.has_value()) << text;
-  return bounds ? implicit(f, bounds->low, bounds->high) : sphere(1.0);
+  return bounds ? implicit(f, bounds->low, bounds->high, options) : sphere(1.0);
 }
 
 // The same surface by every method that there is for it.
@@ -145,13 +150,23 @@ std::vector<std::pair<std::string, Shape>> methods_for(const std::string& surfac
     tree.operation = SolidOperation::difference;
     tree.parts = {{sphere(1.0 + std::stod(d)), Placement{}, SolidOperation::unite, {}, 0},
                   {sphere(1.0 - std::stod(d)), Placement{}, SolidOperation::unite, {}, 0}};
-    return {{"solid", csg(tree)}, {"formula", implicit_shape("abs(sqrt(x^2+y^2+z^2)-1)-" + d, 0)}};
+    const std::string formula = "abs(sqrt(x^2+y^2+z^2)-1)-" + d;
+    return {{"solid", csg(tree)},
+            {"intervals", implicit_shape(formula, 0, RootFinder::interval)},
+            {"affine forms", implicit_shape(formula, 0, RootFinder::affine)}};
   }
   const Named& named = formulas().at(surface);
   std::vector<std::pair<std::string, Shape>> all;
   if (surface == "sphere") all.emplace_back("closed form", sphere(1.0));
   if (surface == "torus") all.emplace_back("closed form", torus(1.0, 0.25));
-  all.emplace_back("formula", implicit_shape(named.f, named.half));
+  all.emplace_back("intervals", implicit_shape(named.f, named.half, RootFinder::interval));
+  all.emplace_back("affine forms", implicit_shape(named.f, named.half, RootFinder::affine));
+  if (surface == "chmutov8") {
+    all.emplace_back("expanded, intervals",
+                     implicit_shape(expanded_chmutov8, named.half, RootFinder::interval));
+    all.emplace_back("expanded, affine forms",
+                     implicit_shape(expanded_chmutov8, named.half, RootFinder::affine));
+  }
   return all;
 }
 

@@ -40,6 +40,10 @@ class LineBatch {
   double* slope_upper() { return at(13); }
   /// A Continuity (interval.h), as a number.
   double* continuity() { return at(14); }
+  /// Of enclose_zeros(): a ZeroRegion (affine.h); its sign as a number.
+  double* first_zero() { return at(10); }
+  double* last_zero() { return at(11); }
+  double* sign() { return at(12); }
   /// Of numbers(): f and df/ds in double precision.
   double* value() { return at(10); }
   double* slope() { return at(12); }
@@ -73,6 +77,9 @@ class LineProgram {
 
   /// Bounds of the values and of the slopes over [from, to] of the first `count` lines.
   void enclose_pieces(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const;
+
+  /// Where affine forms over [from, to] of the first `count` lines leave room for zeros.
+  void enclose_zeros(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const;
 
   /// Bounds of the values at `from`.
   void enclose_points(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const;

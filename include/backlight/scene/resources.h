@@ -50,6 +50,9 @@ class ResourceCache {
   /// the same numbers.
   std::optional<FormulaBounds> bounds(const ImplicitFormula& formula);
 
+  /// choose_root_finder(formula, bounds), once for each formula within the same bounds.
+  RootFinder root_finder(const ImplicitFormula& formula, const FormulaBounds& bounds);
+
   /// SHA-256 (hexadecimal) of the contents of every file that was asked for, in the order of first asking:
   /// what an image depends on besides the scene's own text. Fails if one cannot be read any more.
   Result<std::vector<std::string>> digests();
@@ -65,6 +68,7 @@ class ResourceCache {
   std::map<std::filesystem::path, SpectrumTable> spectra_;
   std::map<Rgb, SigmoidReflectance> sigmoids_;
   std::map<std::vector<std::uint64_t>, std::optional<FormulaBounds>> bounds_;  // by the formula's tape
+  std::map<std::vector<std::uint64_t>, RootFinder> finders_;  // by the formula's tape, then the bounds
   std::vector<UsedFile> used_;
 };
 

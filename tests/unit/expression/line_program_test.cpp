@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "../../../src/expression/lane_waves.h"
+#include "backlight/expression/affine.h"
 #include "backlight/expression/enclosure.h"
 #include "backlight/expression/expression.h"
 
@@ -174,6 +175,30 @@ TEST_P(LineFormulas, NoLineDependsOnTheOthersNorOnTheWidth) {
     alone.from()[0] = lines.from()[i];
     alone.to()[0] = lines.to()[i];
     EXPECT_TRUE(same(together[i], pieces_of(program, alone, 1)[0])) << i;
+  }
+}
+
+// Affine forms over lanes are those of the scalar type, to the last bit, whatever the width and the company.
+TEST_P(LineFormulas, ZerosAreThoseOfTheLaw) {
+  const Tape tape = tape_of(GetParam());
+  constexpr std::size_t count = 203;
+  LineBatch lines = random_lines(count, 29);
+  std::vector<double> workspace;
+  for (const LineWidth width : {LineWidth::automatic, LineWidth::baseline}) {
+    LineProgram(tape, width).enclose_zeros(lines, count, workspace);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::array<double, variables> origin{};
+      std::array<double, variables> direction{};
+      for (std::size_t v = 0; v < variables; ++v) {
+        origin[v] = lines.origin(v)[i];
+        direction[v] = lines.direction(v)[i];
+      }
+      const ZeroRegion law = enclose_zeros(tape, {origin, direction}, lines.from()[i], lines.to()[i]);
+      EXPECT_EQ(lines.first_zero()[i], law.first) << i;
+      EXPECT_EQ(lines.last_zero()[i], law.last) << i;
+      EXPECT_EQ(lines.sign()[i], law.sign) << i;
+      EXPECT_EQ(lines.continuity()[i], static_cast<double>(law.continuity)) << i;
+    }
   }
 }
 

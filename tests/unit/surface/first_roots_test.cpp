@@ -4,9 +4,11 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <tuple>
 #include <variant>
 
-#include "../../../src/surface/implicit_roots.h"
+#include "../../../src/surface/root_choice.h"
+#include "backlight/surface/implicit_surface.h"
 
 namespace backlight {
 namespace {
@@ -37,16 +39,18 @@ std::vector<LinePiece> lines(int count) {
   return pieces;
 }
 
-class FirstRoots : public testing::TestWithParam<const char*> {};
+using Case = std::tuple<const char*, RootFinder>;
+class FirstRoots : public testing::TestWithParam<Case> {};
 
 TEST_P(FirstRoots, AreTheSameAloneInABatchAndOnTheWalk) {
   const auto pieces = lines(300);
-  const ImplicitFormula f = formula(GetParam());
+  const auto [text, finder] = GetParam();
+  const ImplicitFormula f = formula(text);
   std::vector<Root> together(pieces.size());
-  first_roots(f, pieces, together);
+  first_roots(f, pieces, together, finder);
   int hits = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Root alone = first_root(f, pieces[i], pieces[i].from, pieces[i].to);
+    const Root alone = first_root(f, pieces[i], pieces[i].from, pieces[i].to, finder);
     ASSERT_EQ(found(alone), found(together[i]));
     RootWalk walk(f, pieces[i], pieces[i].from, pieces[i].to);
     Root walked;
@@ -68,10 +72,14 @@ TEST_P(FirstRoots, AreTheSameAloneInABatchAndOnTheWalk) {
 
 INSTANTIATE_TEST_SUITE_P(
     Formulas, FirstRoots,
-    testing::Values("4*(2.618*x^2-y^2)*(2.618*y^2-z^2)*(2.618*z^2-x^2)-4.236*(x^2+y^2+z^2-1)^2",
-                    "sin(4*x)*cos(4*y)+sin(4*y)*cos(4*z)+sin(4*z)*cos(4*x)", "y-0.3/x+0.2*z^2",
-                    "(x^2+y^2+z^2-1)^2", "sqrt(x^2+y^2) - 1 + 0.2*t + 0.1*tan(z)", "floor(2*x) + y",
-                    "max(abs(x), abs(y), abs(z)) - 1", "x^2 + y^2 + z^2 - 1 - 0.5*sin(9*t)"));
+    testing::Combine(
+        testing::Values(
+            "4*(2.618*x^2-y^2)*(2.618*y^2-z^2)*(2.618*z^2-x^2)-4.236*(x^2+y^2+z^2-1)^2",
+            "sin(4*x)*cos(4*y)+sin(4*y)*cos(4*z)+sin(4*z)*cos(4*x)", "y-0.3/x+0.2*z^2", "(x^2+y^2+z^2-1)^2",
+            "sqrt(x^2+y^2) - 1 + 0.2*t + 0.1*tan(z)", "floor(2*x) + y", "max(abs(x), abs(y), abs(z)) - 1",
+            "x^2 + y^2 + z^2 - 1 - 0.5*sin(9*t)",
+            "128*x^8-256*x^6+160*x^4-32*x^2+128*y^8-256*y^6+160*y^4-32*y^2+128*z^8-256*z^6+160*z^4-32*z^2+4"),
+        testing::Values(RootFinder::interval, RootFinder::affine)));
 
 TEST(FirstRoots, OfNothingAreNone) {
   const ImplicitFormula f = formula("x^2 + y^2 + z^2 - 1");
@@ -86,13 +94,65 @@ TEST(FirstRoots, AreThoseOfTangentLinesToo) {
   const ImplicitFormula f = formula("x^2 + y^2 + z^2 - 1");
   for (int e = 1; e <= 14; ++e) {
     const double off = std::pow(10.0, -e);
-    for (const double y : {1.0 - off, 1.0 + off}) {
-      const Root root = first_root(f, {{0, y, 0, 0}, {1, 0, 0, 0}}, -2.0, 2.0);
+    for (const auto& [y, finder] :
+         {std::pair{1.0 - off, RootFinder::interval}, std::pair{1.0 + off, RootFinder::interval},
+          std::pair{1.0 - off, RootFinder::affine}, std::pair{1.0 + off, RootFinder::affine}}) {
+      const Root root = first_root(f, {{0, y, 0, 0}, {1, 0, 0, 0}}, -2.0, 2.0, finder);
       ASSERT_EQ(found(root), y < 1.0) << y - 1.0;
       if (y > 1.0) continue;
       EXPECT_EQ(root.kind, RootKind::crossing);
       EXPECT_NEAR(root.t, -std::sqrt((1.0 - y) * (1.0 + y)), 1e-15 / std::sqrt(off));
     }
+  }
+}
+
+// A shadow ray leaves from next to the surface: it meets it no more, or again beyond.
+TEST(FirstRoots, AreNotTheStartOfALineThatLeaves) {
+  const ImplicitFormula f = formula("x^2 + y^2 + z^2 - 1");
+  for (const RootFinder finder : {RootFinder::interval, RootFinder::affine}) {
+    for (const double off : {1e-3, 1e-9, 1e-14}) {
+      const FormulaLine line{{0.3, -0.2, 0.1, 0}, {0.6, 0.8, 0, 0}};
+      const double middle = -(0.3 * 0.6 - 0.2 * 0.8);
+      const double half = std::sqrt(middle * middle - (0.09 + 0.04 + 0.01 - 1.0));
+      EXPECT_FALSE(found(first_root(f, line, middle + half + off, 4.0, finder))) << off;
+      const Root far = first_root(f, line, middle - half + off, 4.0, finder);
+      ASSERT_TRUE(found(far)) << off;
+      EXPECT_NEAR(far.t, middle + half, 1e-14);
+    }
+  }
+}
+
+// The choice is made by counting, so it is known.
+TEST(RootChoice, TakesFormsWhereTheyNeedFewerSteps) {
+  const Vec3 corner{1.25};
+  for (const char* text :
+       {"128*x^8-256*x^6+160*x^4-32*x^2+128*y^8-256*y^6+160*y^4-32*y^2+128*z^8-256*z^6+160*z^4-32*z^2+4",
+        "4*(2.618*x^2-y^2)*(2.618*y^2-z^2)*(2.618*z^2-x^2)-4.236*(x^2+y^2+z^2-1)^2"}) {
+    EXPECT_EQ(choose_root_finder(formula(text), -corner, corner), RootFinder::affine) << text;
+  }
+  // Forms cannot be made of roots of what is never negative, but comes near to it.
+  for (const char* text : {"sqrt(x^2 + y^2) - 1", "floor(3*x) + y"}) {
+    EXPECT_EQ(choose_root_finder(formula(text), -corner, corner), RootFinder::interval) << text;
+  }
+}
+
+TEST(RootChoice, DoesNotWalkLinesOfVeryManyPieces) {
+  const ImplicitFormula f = formula("sin(1/(x*x + 1e-9)) + 0*y");
+  for (const RootFinder finder : {RootFinder::interval, RootFinder::affine}) {
+    const RootWork work = probe(f, Vec3{-1.0}, Vec3{1.0}, finder);
+    EXPECT_EQ(work.walked, 0U);
+    EXPECT_LT(work.cells + work.forms, 32U * 500U);
+  }
+}
+
+TEST(RootChoice, IsWhatTheShapeSays) {
+  const auto f = std::make_shared<const ImplicitFormula>(formula("x^2 + y^2 + z^2 - 1"));
+  const Vec3 corner{1.25};
+  EXPECT_EQ(root_finder(implicit(f, -corner, corner)), choose_root_finder(*f, -corner, corner));
+  for (const RootFinder finder : {RootFinder::interval, RootFinder::affine}) {
+    ImplicitOptions options;
+    options.finder = finder;
+    EXPECT_EQ(root_finder(implicit(f, -corner, corner, options)), finder);
   }
 }
 

@@ -1,0 +1,320 @@
+#include "affine_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace backlight {
+namespace {
+
+constexpr std::size_t variables = ImplicitFormula::variables;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// How many lines are searched side by side.
+constexpr std::size_t window = 64;
+
+/// The first piece is this part of the whole; the next one is so much longer than one without zeros. Chosen
+/// by counting forms on surfaces of degree 2 to 12 and the gyroid.
+constexpr double first_part = 0.25;
+constexpr double growth = 1.5;
+/// Of a piece that is left in part, so much: go on with one as long; less: with half of it.
+constexpr double good_part = 0.5;
+/// Zeros confined to less than this part of a piece are asked for their slope, to more: for another form.
+constexpr double close_part = 0.5;
+
+constexpr int most_polish_steps = 60;
+
+/// The sign of all numbers in the interval, or 0.
+int sign_of(double lower, double upper) {
+  return lower > 0.0 ? 1 : upper < 0.0 ? -1 : 0;
+}
+
+/// A line on its way: everything before `begin` is without roots.
+struct Traveller {
+  std::size_t piece;
+  double begin, end;
+  double limit;  ///< the end of the line
+  double least;  ///< pieces are not made shorter
+  int steps = 0;
+};
+
+/// Of a piece that ends at `end`, zeros can only be in [begin, end] of the traveller; behind it the sign of f
+/// is certain, as it is before it if `sign_before` is not 0.
+struct Bracket {
+  Traveller line;
+  int sign_before, sign_after;
+  double end;     ///< of the piece
+  double length;  ///< of the piece
+};
+
+/// Work memory of one thread, used again for every search.
+struct Memory {
+  LineBatch march{window}, settle{window};
+  std::vector<double> workspace;
+  std::vector<Traveller> on_the_way;  ///< in the order of the batch `march`
+  std::vector<Traveller> waiting;
+  std::vector<Bracket> brackets;
+  std::vector<Bracket> settling;
+  std::vector<Bracket> undecided;
+};
+
+Memory& memory_of_thread() {
+  thread_local Memory memory;
+  return memory;
+}
+
+class FormSearch {
+ public:
+  FormSearch(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
+             RootWork& work)
+      : f_(f),
+        program_(f.program()),
+        pieces_(pieces),
+        roots_(roots),
+        work_(work),
+        m_(memory_of_thread()),
+        most_steps_(most_pieces(work)) {}
+
+  void run() {
+    m_.on_the_way.clear();
+    m_.waiting.clear();
+    m_.brackets.clear();
+    while (true) {
+      while (m_.on_the_way.size() < window && start_next(m_.on_the_way.size())) {
+      }
+      if (m_.on_the_way.empty() && m_.brackets.empty()) return;
+      if (m_.on_the_way.empty() || m_.brackets.size() >= window) {
+        settle();
+        continue;
+      }
+      march();
+    }
+  }
+
+ private:
+  void put_on(LineBatch& batch, std::size_t slot, const Traveller& line) {
+    const LinePiece& piece = pieces_[line.piece];
+    for (std::size_t v = 0; v < variables; ++v) {
+      batch.origin(v)[slot] = piece.origin[v];
+      batch.direction(v)[slot] = piece.direction[v];
+    }
+    batch.from()[slot] = line.begin;
+    batch.to()[slot] = line.end;
+  }
+
+  [[nodiscard]] Traveller traveller(std::size_t i) const {
+    const LinePiece& piece = pieces_[i];
+    double size = std::max(std::abs(piece.from), std::abs(piece.to));
+    for (std::size_t v = 0; v < 3; ++v) size = std::max(size, std::abs(piece.origin[v]));
+    return {i, piece.from, piece.from + first_part * (piece.to - piece.from), piece.to,
+            16.0 * epsilon * size};
+  }
+
+  /// Puts the next line that there is into a slot.
+  bool start_next(std::size_t slot) {
+    Traveller line{};
+    if (!m_.waiting.empty()) {
+      line = m_.waiting.back();
+      m_.waiting.pop_back();
+    } else {
+      do {
+        if (next_ == pieces_.size()) return false;
+        line = traveller(next_++);
+        roots_[line.piece] = no_root();
+        if (line.begin == line.limit) walk(line.piece);
+      } while (!(line.begin < line.limit));
+    }
+    put_on(m_.march, slot, line);
+    if (slot == m_.on_the_way.size()) {
+      m_.on_the_way.push_back(line);
+    } else {
+      m_.on_the_way[slot] = line;
+    }
+    return true;
+  }
+
+  void walk(std::size_t i) { roots_[i] = walked_root(f_, pieces_[i], work_); }
+
+  /// One form for each line on its way. From the last to the first, so that what takes a free slot has been
+  /// looked at.
+  void march() {
+    const std::size_t count = m_.on_the_way.size();
+    program_.enclose_zeros(m_.march, count, m_.workspace);
+    work_.forms += count;
+    for (std::size_t k = count; k-- > 0;) {
+      Traveller& line = m_.on_the_way[k];
+      if (step(line, k)) {
+        m_.march.from()[k] = line.begin;
+        m_.march.to()[k] = line.end;
+      } else if (!start_next(k)) {
+        line = m_.on_the_way.back();
+        m_.on_the_way.pop_back();
+        if (k < m_.on_the_way.size()) put_on(m_.march, k, line);
+      }
+    }
+  }
+
+  /// False: the line needs no more forms, for now or for ever.
+  bool step(Traveller& line, std::size_t k) {
+    if (m_.march.continuity()[k] != 0.0 || ++line.steps > most_steps_) {
+      walk(line.piece);
+      return false;
+    }
+    const double first = m_.march.first_zero()[k];
+    const double last = m_.march.last_zero()[k];
+    const double length = line.end - line.begin;
+    if (first > last) return advance(line, line.end, growth * length);
+    const int sign_before = m_.march.sign()[k] > 0.0 ? 1 : -1;
+    if (last < line.end) {
+      const bool left = first > line.begin;
+      if (last - first > close_part * length) return shorten(line, first, 0.5 * (last - first));
+      Bracket bracket{line, left ? sign_before : 0, -sign_before, line.end, length};
+      bracket.line.begin = first;
+      bracket.line.end = last;
+      m_.brackets.push_back(bracket);
+      return false;
+    }
+    return shorten(line, first, first - line.begin > good_part * length ? length : 0.5 * length);
+  }
+
+  static bool advance(Traveller& line, double to, double length) {
+    line.begin = to;
+    line.end = to + length;
+    if (!(line.end + 0.25 * length < line.limit)) line.end = line.limit;
+    return line.begin < line.limit;
+  }
+
+  bool shorten(Traveller& line, double begin, double length) {
+    if (length > line.least) return advance(line, begin, length);
+    walk(line.piece);
+    return false;
+  }
+
+  void wait(Traveller line, double begin, double length) {
+    if (shorten(line, begin, length)) m_.waiting.push_back(line);
+  }
+
+  /// Looks closer at the brackets that have come together.
+  void settle() {
+    const std::size_t count = std::min(window, m_.brackets.size());
+    m_.settling.assign(m_.brackets.end() - static_cast<std::ptrdiff_t>(count), m_.brackets.end());
+    m_.brackets.resize(m_.brackets.size() - count);
+    find_slopes();
+    find_signs();
+    find_roots();
+  }
+
+  /// Keeps those over which f is monotone.
+  void find_slopes() {
+    const std::size_t count = m_.settling.size();
+    for (std::size_t k = 0; k < count; ++k) put_on(m_.settle, k, m_.settling[k].line);
+    program_.enclose_pieces(m_.settle, count, m_.workspace);
+    work_.cells += count;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Bracket& b = m_.settling[k];
+      const bool monotone = m_.settle.slope_lower()[k] > 0.0 || m_.settle.slope_upper()[k] < 0.0;
+      if (monotone && m_.settle.continuity()[k] == 0.0) {
+        m_.settling[kept++] = b;
+      } else {
+        wait(b.line, b.line.begin, 0.5 * (b.line.end - b.line.begin));
+      }
+    }
+    m_.settling.resize(kept);
+  }
+
+  /// Where the sign before the bracket is not known yet, it is looked at.
+  void find_signs() {
+    m_.undecided.clear();
+    std::size_t kept = 0;
+    for (const Bracket& b : m_.settling) {
+      if (b.sign_before == 0) {
+        put_on(m_.settle, m_.undecided.size(), b.line);
+        m_.undecided.push_back(b);
+      } else {
+        m_.settling[kept++] = b;
+      }
+    }
+    m_.settling.resize(kept);
+    program_.enclose_points(m_.settle, m_.undecided.size(), m_.workspace);
+    work_.points += m_.undecided.size();
+    for (std::size_t k = 0; k < m_.undecided.size(); ++k) {
+      Bracket& b = m_.undecided[k];
+      b.sign_before = sign_of(m_.settle.lower()[k], m_.settle.upper()[k]);
+      if (b.sign_before == 0 || m_.settle.continuity()[k] != 0.0) {
+        walk(b.line.piece);
+      } else if (b.sign_before == b.sign_after) {
+        if (advance(b.line, b.end, growth * b.length)) m_.waiting.push_back(b.line);
+      } else {
+        m_.settling.push_back(b);
+      }
+    }
+  }
+
+  /// Newton's method, each inside a bracket that is halved when Newton's does not do better.
+  void find_roots() {
+    for (std::size_t k = 0; k < m_.settling.size(); ++k) {
+      const Bracket& b = m_.settling[k];
+      put_on(m_.settle, k, b.line);
+      m_.settle.from()[k] = 0.5 * b.line.begin + 0.5 * b.line.end;
+      roots_[b.line.piece] = {0.0, RootKind::crossing, b.sign_before, b.sign_after, b.line.begin, b.line.end};
+      m_.settling[k].line.steps = 0;
+    }
+    while (!m_.settling.empty()) {
+      const std::size_t count = m_.settling.size();
+      program_.numbers(m_.settle, count, m_.workspace);
+      work_.polish += count;
+      for (std::size_t k = count; k-- > 0;) {
+        if (improve(m_.settling[k], m_.settle.from()[k], m_.settle.value()[k], m_.settle.slope()[k]))
+          continue;
+        const double at = m_.settle.from()[m_.settling.size() - 1];
+        m_.settling[k] = m_.settling.back();
+        m_.settling.pop_back();
+        if (k == m_.settling.size()) continue;
+        put_on(m_.settle, k, m_.settling[k].line);
+        m_.settle.from()[k] = at;
+      }
+    }
+  }
+
+  /// False: `t` is the root, and has been told.
+  bool improve(Bracket& b, double& t, double value, double slope) {
+    Traveller& line = b.line;
+    const double width = line.end - line.begin;
+    ((value > 0.0) == (b.sign_before > 0) ? line.begin : line.end) = t;
+    double next = t - value / slope;
+    const bool settled = value == 0.0 || std::abs(next - t) <= 0.03125 * line.least;
+    if (settled) {
+      roots_[line.piece].t = value == 0.0 ? t : std::clamp(next, line.begin, line.end);
+      return false;
+    }
+    const bool slow = line.steps > 6 && line.end - line.begin > 0.5 * width;
+    if (slow || !(next > line.begin && next < line.end)) next = 0.5 * line.begin + 0.5 * line.end;
+    if (next > line.begin && next < line.end && ++line.steps < most_polish_steps) {
+      t = next;
+      return true;
+    }
+    roots_[line.piece].t = t;
+    return false;
+  }
+
+  const ImplicitFormula& f_;
+  const LineProgram& program_;
+  std::span<const LinePiece> pieces_;
+  std::span<Root> roots_;
+  RootWork& work_;
+  Memory& m_;
+  int most_steps_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+void first_roots_by_forms(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
+                          RootWork* work) {
+  RootWork own;
+  FormSearch(f, pieces, roots, work != nullptr ? *work : own).run();
+}
+
+}  // namespace backlight
