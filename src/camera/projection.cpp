@@ -57,14 +57,18 @@ std::optional<ImagePoint> fisheye_point(const Lens& lens, const Vec3& c) {
 
 }  // namespace
 
+double perspective_step(const Lens& lens) {
+  return 2.0 * std::tan(0.5 * lens.fov) / lens.width;
+}
+
 std::optional<Vec3> direction_at(const Lens& lens, const ImagePoint& point) {
   switch (lens.projection) {
     case Projection::perspective: {
-      const double scale = std::tan(0.5 * lens.fov);
-      const double x = (2.0 * point.x / lens.width - 1.0) * scale;
-      const double y = (1.0 - 2.0 * point.y / lens.height) * scale * lens.height / lens.width;
+      const double step = perspective_step(lens);
+      const double x = (point.x - 0.5 * lens.width) * step;
+      const double y = (0.5 * lens.height - point.y) * step;
       const Vec3 d = lens.forward + x * lens.right + y * lens.up;
-      return d / glm::length(d);
+      return d * (1.0 / glm::length(d));
     }
     case Projection::equirectangular: {
       const double latitude = (0.5 - point.y / lens.height) * pi;

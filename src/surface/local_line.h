@@ -71,9 +71,9 @@ inline LocalLine local_line(const RestRay& ray, const PlacedSurface& surface) {
   }
   const Vec3 point = surface.to_local(near);
   const Vec3 direction = surface.to_local(ray.direction);
-  const double length = std::sqrt(glm::dot(direction, direction));
-  const double per_length = 1.0 / length;
-  const Vec3 unit = direction / length;
+  const double per_length =
+      surface.aligned ? ray.inverse_length : 1.0 / std::sqrt(glm::dot(direction, direction));
+  const Vec3 unit = direction * per_length;
   const double shift = -glm::dot(point, unit);
   const RayClock clock{ray.clock.start + (lambda + shift * per_length) * ray.clock.rate,
                        per_length * ray.clock.rate};

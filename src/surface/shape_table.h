@@ -45,6 +45,7 @@ struct LocalPoint {
   double v = 0.0;
   double error = 0.0;  ///< of the position, beyond rounding of the coordinates
   int member = 0;      ///< of a solid made of several: which of them
+  bool is_unit = false;  ///< whether the gradient's length is 1, to within rounding
 };
 
 /// Half the extent along one rest axis of a circle of radius 1 about the local y axis, of a unit sphere, and

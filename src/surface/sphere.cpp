@@ -33,8 +33,13 @@ Crossings crossings_of(const Shape& shape, const LocalLine& line, double /*lambd
 
 LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
   const Vec3 p = line.at(crossing.t);
-  const Vec3 on = p * (shape.values[0] / glm::length(p));
-  return {on, on, longitude(on.x, on.z), std::atan2(std::hypot(on.x, on.z), on.y) * std::numbers::inv_pi};
+  const double inverse = 1.0 / glm::length(p);
+  const Vec3 outward = p * inverse;
+  const Vec3 on = p * (shape.values[0] * inverse);
+  LocalPoint point{on, outward, longitude(on.x, on.z),
+                   std::atan2(std::hypot(on.x, on.z), on.y) * std::numbers::inv_pi};
+  point.is_unit = true;
+  return point;
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ SurfacePoint surface_point(const PlacedSurface& surface, const LocalLine& line, 
   result.position = surface.placement.position() + offset;
   // A gradient is a covector: it goes by the transposed inverse, which also keeps it outward in a mirror
   // image.
-  result.normal =
-      glm::normalize(surface.aligned ? point.gradient
-                                     : glm::transpose(surface.placement.local_from_rest()) * point.gradient);
+  result.normal = point.gradient;
+  if (!surface.aligned) result.normal = glm::transpose(surface.placement.local_from_rest()) * point.gradient;
+  if (!surface.aligned || !point.is_unit) result.normal = glm::normalize(result.normal);
   result.u = point.u;
   result.v = point.v;
   result.member = point.member;

@@ -22,7 +22,11 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit) {
   point.hit = hit;
   point.surface = hub.frames[static_cast<std::size_t>(hit.frame)].scene->surfaces->resolve(
       hit.hit, ray.origin, ray.direction, ray.clock());
-  point.to_camera = -ray.direction / glm::length(ray.direction);
+  // The boost knows the length of a null vector, 1/D; without light delay there is none.
+  const bool light_delay = rays.ray().light_delay;
+  const double inverse_length =
+      light_delay ? ray.doppler(true).value : 1.0 / glm::length(ray.direction);
+  point.to_camera = -ray.direction * inverse_length;
   const bool outside = glm::dot(point.surface.normal, point.to_camera) >= 0.0;
   point.normal = outside ? point.surface.normal : -point.surface.normal;
   point.proper_time = ray.at(hit.lambda).t;
@@ -46,12 +50,13 @@ std::optional<Arrival> arrival(RayInFrames& rays, const SeenPoint& point, const 
   const auto& to_surface = view.to_frame[static_cast<std::size_t>(point.hit.frame)];
   const NullDirection<Rest> k = to_surface(a.segment.direction);
   if (!(k.length > 0.0)) return std::nullopt;
-  a.to_light = k.x / k.length;
+  const double inverse_length = 1.0 / k.length;
+  a.to_light = k.x * inverse_length;
   a.cosine = glm::dot(point.normal, a.to_light);
   if (!(a.cosine > 0.0)) return std::nullopt;
   a.doppler = {k.length / a.segment.direction.length};
   a.gamma = to_surface.gamma();
-  if (light.kind == LightKind::point) a.inverse_square = 1.0 / (k.length * k.length);
+  if (light.kind == LightKind::point) a.inverse_square = inverse_length * inverse_length;
   a.segment.start_in_surface_frame = point.surface.position + point.surface.error_bound * point.normal;
   a.segment.direction_in_surface_frame = k.x;
   a.segment.clock_in_surface_frame = {point.proper_time, -k.length};

@@ -43,8 +43,8 @@ struct SheetRays {
 
 /// A Lens of the perspective projection.
 struct LaneLens {
-  double width, height;
-  double scale;  ///< tan(fov/2)
+  double half_width, half_height;
+  double step;  ///< perspective_step()
   double forward[3], right[3], up[3];
 };
 

@@ -67,12 +67,12 @@ struct KernelsOf {
 
   static void look(const LaneLens& lens, const double* across, const double* down, SheetRays& rays) {
     const V3 forward(lens.forward), right(lens.right), up(lens.up);
-    const V width(lens.width), height(lens.height), scale(lens.scale);
+    const V half_width(lens.half_width), half_height(lens.half_height), step(lens.step);
     for (int i = 0; i < rays.padded; i += N) {
-      const V x = (V(2.0) * V::load(across + i) / width - V(1.0)) * scale;
-      const V y = (V(1.0) - V(2.0) * V::load(down + i) / height) * scale * height / width;
+      const V x = (V::load(across + i) - half_width) * step;
+      const V y = (half_height - V::load(down + i)) * step;
       const V3 d = forward + x * right + y * up;
-      store3(d / length(d), rays.direction, i);
+      store3((V(1.0) / length(d)) * d, rays.direction, i);
     }
   }
 
@@ -245,14 +245,15 @@ struct KernelsOf {
 
   static BACKLIGHT_LANES void face_lanes(const LaneFrame& frame, const LaneNull<V>& n, V3 position, V3 normal,
                                          V error_bound, PointSheet& p, int i) {
-    const V3 to_camera = -n.x / length(n.x);
+    const V doppler = V(1.0) / n.length;
+    const V3 to_camera = (p.light_delay ? doppler : V(1.0) / length(n.x)) * -n.x;
     const Mask outside = dot(normal, to_camera) >= V(0.0);
     const V3 seen = select(outside, normal, -normal);
     store3(seen, p.normal, i);
     store3(to_camera, p.to_camera, i);
     store3(position + error_bound * seen, p.start, i);
     (V(frame.time) + V::load(p.lambda + i) * -n.length).store(p.proper_time + i);
-    (p.light_delay ? V(-1.0) / -n.length : V(1.0)).store(p.doppler + i);
+    (p.light_delay ? doppler : V(1.0)).store(p.doppler + i);
   }
 
   static std::uint64_t resolve(const LaneFrame& frame, const LaneSurface& surface, PointSheet& p) {
@@ -299,7 +300,8 @@ struct KernelsOf {
         (V(lamp.time_offset) + relative - way_length).store(p.relative_emission_time + i);
       }
       const LaneNull<V> k = boosted(lamp.to_surface, way, way_length);
-      const V3 to_light = k.x / k.length;
+      const V inverse_length = V(1.0) / k.length;
+      const V3 to_light = inverse_length * k.x;
       const V cosine = dot(load3<V>(p.normal, i), to_light);
       const Mask lit = (k.length > V(0.0)) & (cosine > V(0.0));
       select(lit, V(1.0), V(0.0)).store(p.lit + i);
@@ -311,7 +313,7 @@ struct KernelsOf {
       store3(to_light, p.to_light, i);
       cosine.store(p.cosine + i);
       (k.length / way_length).store(p.lamp_doppler + i);
-      (lamp.distant ? V(1.0) : V(1.0) / (k.length * k.length)).store(p.inverse_square + i);
+      (lamp.distant ? V(1.0) : inverse_length * inverse_length).store(p.inverse_square + i);
     }
     for (int i = p.count; i < p.padded; ++i) p.lit[i] = 0.0;
   }

@@ -98,7 +98,7 @@ class SheetMaker {
       for (auto& row : rays.direction) row[lane] = row[rays.count - 1];
     }
     if (flat) {
-      LaneLens lanes{double(lens.width), double(lens.height), std::tan(0.5 * lens.fov), {}, {}, {}};
+      LaneLens lanes{0.5 * lens.width, 0.5 * lens.height, perspective_step(lens), {}, {}, {}};
       for (int k = 0; k < 3; ++k) {
         lanes.forward[k] = lens.forward[k];
         lanes.right[k] = lens.right[k];

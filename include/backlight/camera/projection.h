@@ -26,6 +26,9 @@ struct Lens {
   Vec3 up{0.0, 1.0, 0.0};
 };
 
+/// Perspective: the width of a pixel in the plane at distance 1.
+double perspective_step(const Lens& lens);
+
 /// The unit looking direction through an image point, in the camera's frame. Empty where the projection
 /// shows nothing (outside a fisheye's circle).
 std::optional<Vec3> direction_at(const Lens& lens, const ImagePoint& point);

@@ -76,9 +76,8 @@ BACKLIGHT_LANES LaneLine<V> lane_line(const LaneSurface& surface, const LaneRay<
     point = surface.local_from_rest.times(point);
     direction = surface.local_from_rest.times(direction);
   }
-  const V size = length(direction);
-  const V per_length = V(1.0) / size;
-  const LaneVec3<V> unit = direction / size;
+  const V per_length = surface.aligned ? sqrt(inverse_square) : V(1.0) / length(direction);
+  const LaneVec3<V> unit = per_length * direction;
   const V shift = -dot(point, unit);
   return {point + shift * unit, unit, lambda, shift * per_length, per_length};
 }
@@ -151,8 +150,9 @@ BACKLIGHT_LANES LanePoint<V> lane_resolve(const LaneSurface& surface, const Lane
     const V off_exit = size(line.lambda(half_chord) - lambda);
     const V t = select(off_exit < off_entry, half_chord, -half_chord);
     const LaneVec3<V> p = line.point + t * line.direction;
-    local = (V(surface.radius) / length(p)) * p;
-    gradient = local;
+    const V inverse = V(1.0) / length(p);
+    local = (V(surface.radius) * inverse) * p;
+    gradient = inverse * p;
     result.u = result.v = V(0.0);
     result.resolved = off_entry < V(__builtin_inf());
     reach = V(surface.bounding_radius);
@@ -172,7 +172,8 @@ BACKLIGHT_LANES LanePoint<V> lane_resolve(const LaneSurface& surface, const Lane
     result.position = LaneVec3<V>(surface.centre) + local;
     gradient = surface.normal_from_gradient.times(gradient);
   }
-  result.normal = (V(1.0) / sqrt(dot(gradient, gradient))) * gradient;
+  // The gradients of both are unit vectors where nothing is turned or scaled.
+  result.normal = surface.aligned ? gradient : (V(1.0) / length(gradient)) * gradient;
   if (surface.kind != LaneSurface::Kind::sphere) reach = V(2.0) * length(local);
   const LaneVec3<V> centre(surface.centre);
   result.error_bound = V(0x1p-48) * (largest_coordinate(centre) + reach);
