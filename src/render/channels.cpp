@@ -73,20 +73,20 @@ bool has_light_channels(const Scene& scene) {
 }
 
 PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
-    : image_(image), first_(view * channels_of_one_view(scene).size()) {
+    : image_(&image), first_(view * channels_of_one_view(scene).size()) {
   for (const DataChannel& channel : data_channels) {
     if (asked_for(scene, channel.aov)) data_.push_back(channel.value);
   }
   for (std::size_t c = 0; c < 4; ++c) colour_[c] = image.plane(first_ + c).data();
 }
 
-bool PixelWriter::write(std::size_t channel, int x, int y, double value) {
+bool PixelWriter::write(std::size_t channel, int x, int y, double value) const {
   const auto stored = static_cast<float>(value);
-  image_.at(first_ + channel, x, y) = stored;
+  image_->at(first_ + channel, x, y) = stored;
   return std::isfinite(stored);
 }
 
-bool PixelWriter::data(int x, int y, const PixelData& data) {
+bool PixelWriter::data(int x, int y, const PixelData& data) const {
   bool finite = true;
   for (std::size_t i = 0; i < data_.size(); ++i) finite &= write(4 + i, x, y, data_[i](data));
   return finite;

@@ -30,24 +30,23 @@ class PixelWriter {
  public:
   PixelWriter(const Scene& scene, Image& image, std::size_t view);
 
-  /// Each returns whether all it wrote is finite as a float.
-  bool colour(int x, int y, const LinearRgb& rgb, double alpha) {
-    const std::size_t at = image_.offset(x, y);
+  /// Each returns whether all it wrote is finite as a float. `at`: the image's offset().
+  bool colour(std::size_t at, const LinearRgb& rgb, double alpha) const {
     const float values[4] = {static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b),
                              static_cast<float>(alpha)};
-    bool finite = true;
+    float none = 0.0F;  // a NaN where one of them is not finite
     for (std::size_t c = 0; c < 4; ++c) {
       colour_[c][at] = values[c];
-      finite &= std::isfinite(values[c]);
+      none += values[c] - values[c];
     }
-    return finite;
+    return none == 0.0F;
   }
-  bool data(int x, int y, const PixelData& data);
+  bool data(int x, int y, const PixelData& data) const;
 
  private:
-  bool write(std::size_t channel, int x, int y, double value);
+  bool write(std::size_t channel, int x, int y, double value) const;
 
-  Image& image_;
+  Image* image_;
   std::size_t first_;             // channel
   std::array<float*, 4> colour_;  // planes
   std::vector<double (*)(const PixelData&)> data_;

@@ -1,6 +1,7 @@
 #include "backlight/render/render.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <new>
@@ -18,6 +19,20 @@ namespace {
 
 constexpr int largest_tile = 32;
 constexpr int block_size = 8;  // a sheet of rays is a block's
+
+struct BlockPlace {
+  int right;
+  int down;
+};
+
+constexpr auto block_order = [] {
+  std::array<BlockPlace, block_size * block_size> order{};
+  for (unsigned i = 0; i < order.size(); ++i) {
+    order[i] = {static_cast<int>((i & 1U) | ((i >> 1U) & 2U) | ((i >> 2U) & 4U)),
+                static_cast<int>(((i >> 1U) & 1U) | ((i >> 2U) & 2U) | ((i >> 3U) & 4U))};
+  }
+  return order;
+}();
 
 // Tiles get smaller with the number of samples: a tile is put aside as a whole.
 int tile_size_of(const Scene& scene) {
@@ -85,6 +100,8 @@ class ViewRenderer {
         sheets_(sheets),
         settings_(settings),
         eye_(eye),
+        has_stars_(tracer.has_stars()),
+        has_data_(has_data_channels(tracer.scene())),
         writer_(tracer.scene(), partial.image, view),
         image_(partial.image),
         done_(partial.done[view]) {}
@@ -108,19 +125,19 @@ class ViewRenderer {
     }
     for (int y = box.y0; y < box.y1; ++y) {
       for (int x = box.x0; x < box.x1; ++x) {
-        std::uint8_t& is_done = done_[image_.offset(x, y)];
-        if (is_done != 0) continue;
+        if (done_[image_.offset(x, y)] != 0) continue;
         if (stop.load(std::memory_order_relaxed)) return;
-        pixel_or_failure(x, y, memory);
-        is_done = 1;
+        at_pixel(x, y, [&] { pixel(x, y, memory); });
       }
     }
   }
 
  private:
-  void pixel_or_failure(int x, int y, ThreadMemory& memory) {
+  // What goes wrong in `work` is told with the pixel that it was for.
+  template <class Work>
+  static void at_pixel(int x, int y, const Work& work) {
     try {
-      pixel(x, y, memory);
+      work();
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
@@ -138,11 +155,7 @@ class ViewRenderer {
       return true;
     };
     if (!m.sampler->tile(box, m.pixels, trace)) return;
-    for (std::size_t k = 0; k < m.pixels.size(); ++k) {
-      const auto [x, y] = m.pixels[k];
-      write(x, y, m.sampler->estimates()[k], nullptr, m);
-      done_[image_.offset(x, y)] = 1;
-    }
+    write_all(m, nullptr, [&](std::size_t k) { return m.sampler->estimates()[k]; });
   }
 
   void trace_samples(std::span<const TilePixel> pixels, int index, ThreadMemory& m,
@@ -159,22 +172,11 @@ class ViewRenderer {
       samples[k].x = point.x - x;
       samples[k].y = point.y - y;
       if (sheets_ == nullptr) {
-        trace_point_or_failure({x, y}, point, m.scratch, samples[k]);
+        at_pixel(x, y, [&] { trace_point(point, m.scratch, samples[k]); });
       } else if (m.light.covered[k] != 0) {
         samples[k].covered = true;
         samples[k].colour = m.light.colour[k];
       }
-    }
-  }
-
-  void trace_point_or_failure(const TilePixel& pixel, const ImagePoint& point, Scratch& scratch,
-                              PixelSample& sample) const {
-    try {
-      trace_point(point, scratch, sample);
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      throw PixelFailure(pixel.x, pixel.y, error.what());
     }
   }
 
@@ -186,34 +188,52 @@ class ViewRenderer {
     sample.colour = tracer_.colour(*ray, effects, scratch);
   }
 
-  // Adds the stars and the data channels, of which `record` is known where it is not null.
-  void write(int x, int y, PixelEstimate estimate, const SurfaceRecord* record, ThreadMemory& m) {
-    const Scene& scene = tracer_.scene();
-    if (estimate.coverage > 0.0 && tracer_.has_stars()) {
-      estimate.colour += tracer_.stars(x, y, eye_, m.scratch);
+  // Writes the pixels of m.pixels, and that they are done. `estimate(k)`: the colour of one; `records`: what
+  // each of them sees, where that is known.
+  template <class Estimate>
+  void write_all(ThreadMemory& m, const std::vector<SurfaceRecord>* records, const Estimate& estimate) {
+    const bool plain = !has_stars_ && !has_data_;
+    SampleCounts samples;  // beyond the reach of the pixels' pointers: the compiler keeps it in registers
+    std::uint64_t non_finite = 0;
+    const PixelWriter writer = writer_;
+    std::uint8_t* const done = done_.data();
+    const PixelBox window = image_.layout().data;
+    const TilePixel* const pixels = m.pixels.data();
+    const std::size_t count = m.pixels.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto [x, y] = pixels[k];
+      PixelEstimate pixel = estimate(k);
+      if (has_stars_ && pixel.coverage > 0.0) pixel.colour += tracer_.stars(x, y, eye_, m.scratch);
+      const auto at = static_cast<std::size_t>((y - window.y0) * window.width() + (x - window.x0));
+      bool finite = writer.colour(at, pixel.colour, pixel.coverage);
+      if (!plain) finite &= data(x, y, records != nullptr ? &(*records)[k] : nullptr, pixel.samples, m);
+      samples.add(pixel.samples, pixel.at_limit);
+      non_finite += finite ? 0 : 1;
+      done[at] = 1;
     }
-    m.samples.add(estimate.samples, estimate.at_limit);
-    bool finite = writer_.colour(x, y, estimate.colour, estimate.coverage);
-    if (record != nullptr) {
-      finite &= writer_.data(x, y, {*record, estimate.samples});
-    } else if (has_data_channels(scene)) {
-      finite &= data(x, y, estimate.samples, m.scratch);
-    }
-    if (!finite) ++m.scratch.counts.non_finite;
+    m.samples += samples;
+    m.scratch.counts.non_finite += non_finite;
   }
 
+  // In squares of a sheet each, and those within them in squares within squares: neighbours in this order are
+  // neighbours in the image.
   void list_missing(const PixelBox& box, std::vector<TilePixel>& pixels) const {
-    pixels.clear();
+    pixels.resize(static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()));
+    TilePixel* next = pixels.data();
+    const int width = image_.layout().data.width();
     for (int top = box.y0; top < box.y1; top += block_size) {
       for (int left = box.x0; left < box.x1; left += block_size) {
-        for (unsigned i = 0; i < block_size * block_size; ++i) {
-          // Squares within squares: neighbours in this order are neighbours in the image.
-          const int x = left + static_cast<int>((i & 1U) | ((i >> 1U) & 2U) | ((i >> 2U) & 4U));
-          const int y = top + static_cast<int>(((i >> 1U) & 1U) | ((i >> 2U) & 2U) | ((i >> 3U) & 4U));
-          if (x < box.x1 && y < box.y1 && done_[image_.offset(x, y)] == 0) pixels.push_back({x, y});
+        const bool whole = left + block_size <= box.x1 && top + block_size <= box.y1;
+        const std::uint8_t* const done = done_.data() + image_.offset(left, top);
+        for (const auto [right, down] : block_order) {
+          const int x = left + right;
+          const int y = top + down;
+          const bool inside = whole || (x < box.x1 && y < box.y1);
+          if (inside && done[down * width + right] == 0) *next++ = {x, y};
         }
       }
     }
+    pixels.resize(static_cast<std::size_t>(next - pixels.data()));
   }
 
   // The same as pixel(), for all at once.
@@ -236,14 +256,15 @@ class ViewRenderer {
         ++m.covered[k];
       }
     }
-    for (std::size_t k = 0; k < m.pixels.size(); ++k) {
-      const auto [x, y] = m.pixels[k];
-      const int covered = samples == 1 ? m.light.covered[k] : m.covered[k];
-      const double share = samples == 1 ? double(covered) : double(covered) / samples;
-      const LinearRgb colour =
-          samples == 1 ? LinearRgb{0.0} + m.light.colour[k] : m.sums[k] / double(samples);
-      write(x, y, {colour, share, samples}, records ? &m.light.record[k] : nullptr, m);
-      done_[image_.offset(x, y)] = 1;
+    const std::vector<SurfaceRecord>* known = records ? &m.light.record : nullptr;
+    if (samples == 1) {
+      write_all(m, known, [&](std::size_t k) {
+        return PixelEstimate{LinearRgb{0.0} + m.light.colour[k], double(m.light.covered[k]), 1};
+      });
+    } else {
+      write_all(m, known, [&](std::size_t k) {
+        return PixelEstimate{m.sums[k] / double(samples), double(m.covered[k]) / samples, samples};
+      });
     }
   }
 
@@ -260,11 +281,18 @@ class ViewRenderer {
       sum += sample.colour;
       ++covered;
     }
-    write(x, y, {sum / double(samples), double(covered) / samples, samples}, nullptr, m);
+    m.pixels = {{x, y}};
+    write_all(m, nullptr, [&](std::size_t) {
+      return PixelEstimate{sum / double(samples), double(covered) / samples, samples};
+    });
   }
 
-  bool data(int x, int y, int samples, Scratch& scratch) {
+  // The data channels, of which `known` is what the pixel sees where it is not null. Whether all are finite.
+  bool data(int x, int y, const SurfaceRecord* known, int samples, ThreadMemory& m) const {
+    if (!has_data_) return true;
+    if (known != nullptr) return writer_.data(x, y, {*known, samples});
     const Scene& scene = tracer_.scene();
+    Scratch& scratch = m.scratch;
     const ImagePoint centre{x + 0.5, y + 0.5};
     const Effects& effects = effects_at(scene, centre);
     const auto ray = camera_ray(scene.camera, centre, effects, eye_);
@@ -277,6 +305,8 @@ class ViewRenderer {
   const SheetTracer* sheets_;  // null: one ray at a time
   const RenderSettings& settings_;
   int eye_;
+  bool has_stars_;
+  bool has_data_;
   PixelWriter writer_;
   const Image& image_;
   std::vector<std::uint8_t>& done_;
@@ -307,7 +337,11 @@ RenderStatistics summed(const std::vector<ThreadMemory>& memories) {
 
 void SampleCounts::add(int samples, bool is_at_limit) {
   const auto count = static_cast<std::uint64_t>(samples);
-  *this += {1, count, count, count, is_at_limit ? 1U : 0U};
+  least = pixels == 0 ? count : std::min(least, count);
+  most = std::max(most, count);
+  ++pixels;
+  total += count;
+  at_limit += is_at_limit ? 1 : 0;
 }
 
 SampleCounts& SampleCounts::operator+=(const SampleCounts& other) {
