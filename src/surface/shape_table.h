@@ -43,8 +43,8 @@ struct LocalPoint {
   Vec3 gradient{0.0, 1.0, 0.0};
   double u = 0.0;
   double v = 0.0;
-  double error = 0.0;  ///< of the position, beyond rounding of the coordinates
-  int member = 0;      ///< of a solid made of several: which of them
+  double error = 0.0;    ///< of the position, beyond rounding of the coordinates
+  int member = 0;        ///< of a solid made of several: which of them
   bool is_unit = false;  ///< whether the gradient's length is 1, to within rounding
 };
 

@@ -24,8 +24,7 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit) {
       hit.hit, ray.origin, ray.direction, ray.clock());
   // The boost knows the length of a null vector, 1/D; without light delay there is none.
   const bool light_delay = rays.ray().light_delay;
-  const double inverse_length =
-      light_delay ? ray.doppler(true).value : 1.0 / glm::length(ray.direction);
+  const double inverse_length = light_delay ? ray.doppler(true).value : 1.0 / glm::length(ray.direction);
   point.to_camera = -ray.direction * inverse_length;
   const bool outside = glm::dot(point.surface.normal, point.to_camera) >= 0.0;
   point.normal = outside ? point.surface.normal : -point.surface.normal;

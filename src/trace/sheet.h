@@ -14,6 +14,16 @@ namespace backlight {
 
 inline constexpr int sheet_size = 64;  ///< rays: 8x8 pixels
 
+/// `count` rounded up to whole registers of any width.
+inline int padded_count(int count) {
+  return (count + 7) / 8 * 8;
+}
+
+/// As many bits, from the lowest.
+inline std::uint64_t first_bits(int count) {
+  return count < 64 ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+}
+
 /// Λ = R B(w) of spacetime/transform.h, for relative γ <= robust_gamma.
 struct LaneMotion {
   double celerity[3]{};
@@ -34,7 +44,7 @@ struct LaneFrame {
 /// Camera rays from one event.
 struct SheetRays {
   int count = 0;
-  int padded = 0;  ///< count rounded up to whole registers; the last ray is repeated
+  int padded = 0;  ///< padded_count(count); the last ray is repeated
   bool light_delay = true;
   alignas(64) double direction[3][sheet_size];
   alignas(64) double lambda[sheet_size];  ///< of the nearest hit so far; infinite: none
@@ -192,6 +202,8 @@ struct SheetKernels {
   void (*gather)(const LaneLamp& lamp, const SheetRays& rays, const double* axis, LightSpan& span);
   /// Which rays are in the cone, one bit each.
   std::uint64_t (*inside)(const SheetRays& rays, const LaneCone& cone);
+  /// Which rays have met this, one bit each.
+  std::uint64_t (*same)(const SheetRays& rays, double who);
   /// Updates `lambda` and `who` where the surface is nearer.
   void (*nearest)(const LaneFrame& frame, const LaneSurface& surface, const LaneCone& cone, double who,
                   SheetRays& rays);

@@ -219,6 +219,13 @@ struct KernelsOf {
     return rays.count < 64 ? all & ((std::uint64_t{1} << rays.count) - 1) : all;
   }
 
+  static std::uint64_t same(const SheetRays& rays, double who) {
+    std::uint64_t all = 0;
+    for (int i = 0; i < rays.padded; i += N)
+      all |= static_cast<std::uint64_t>(bits(V::load(rays.who + i) == V(who))) << i;
+    return all;
+  }
+
   static void nearest(const LaneFrame& frame, const LaneSurface& surface, const LaneCone& cone, double who,
                       SheetRays& rays) {
     const V3 origin(frame.origin);
@@ -451,8 +458,9 @@ struct KernelsOf {
   }
 
   static constexpr SheetKernels table(const char* name) {
-    return {name,     N,       look, bundle, overlapping,  overlapping_lamps, gather,  inside,    nearest,
-            in_frame, resolve, face, arrive, light_bundle, occlude,           reflect, add_light, carry};
+    return {name,    N,        look,    bundle, overlapping, overlapping_lamps, gather,  inside,  same,
+            nearest, in_frame, resolve, face,   arrive,      light_bundle,      occlude, reflect, add_light,
+            carry};
   }
 };
 

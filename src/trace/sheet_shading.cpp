@@ -116,8 +116,23 @@ void SheetShader::begin_tile(const Effects& effects) {
   }
 }
 
+void SheetShader::begin_points(const Occupant& occupant) {
+  occupant_ = &occupant;
+  hits_known_ = occupant.lanes.kind == LaneSurface::Kind::other;
+  work_.points.frame = occupant.frame;
+}
+
+FirstHit SheetShader::hit(int lane) {
+  const PointSheet& p = work_.points;
+  if (!hits_known_) {
+    for (int i = 0; i < p.count; ++i) work_.hits[i] = {p.lambda[i], occupant_->surface, 0, false};
+    hits_known_ = true;
+  }
+  return {work_.hits[lane], occupant_->frame, Extended(p.lambda[lane])};
+}
+
 // Returns the index of their material, or -1 for several.
-int SheetShader::resolve_one_by_one(const Occupant& occupant, std::span<const Hit> hits) {
+int SheetShader::resolve_one_by_one(const Occupant& occupant) {
   PointSheet& p = work_.points;
   const Scene& scene = tracer_.scene();
   const SurfaceSet& surfaces =
@@ -127,16 +142,16 @@ int SheetShader::resolve_one_by_one(const Occupant& occupant, std::span<const Hi
   bool same = true;
   for (int i = 0; i < p.padded; ++i) {
     const int from = std::min(i, p.count - 1);
-    const Hit& hit = hits[static_cast<std::size_t>(from)];
+    const FirstHit first = hit(from);
     scratch_.rays.start(camera_ray_of(from));
     const RestRayEvents& ray = scratch_.rays.in(occupant.frame);
-    const SurfacePoint point = surfaces.resolve(hit, ray.origin, ray.direction, ray.clock());
+    const SurfacePoint point = surfaces.resolve(first.hit, ray.origin, ray.direction, ray.clock());
     put(point.position, p.position, i);
     put(point.normal, p.normal, i);
     p.u[i] = point.u;
     p.v[i] = point.v;
     error_bound[i] = point.error_bound;
-    const int own = material_of(scene, {hit, occupant.frame, Extended(p.lambda[from])}, point);
+    const int own = material_of(scene, first, point);
     same = same && (i == 0 || own == material);
     material = own;
   }
@@ -144,17 +159,17 @@ int SheetShader::resolve_one_by_one(const Occupant& occupant, std::span<const Hi
   return same ? material : -1;
 }
 
-int SheetShader::resolve(const Occupant& occupant, std::span<const Hit> hits) {
+int SheetShader::resolve(const Occupant& occupant) {
   const Scene& scene = tracer_.scene();
   const LaneSurface::Kind kind = occupant.lanes.kind;
-  if (kind == LaneSurface::Kind::other) return resolve_one_by_one(occupant, hits);
-  const int index = object_of(scene, {hits[0], occupant.frame, Extended(hits[0].lambda)}).material;
+  if (kind == LaneSurface::Kind::other) return resolve_one_by_one(occupant);
+  const int index = object_of(scene, occupant.frame, occupant.surface).material;
   const Material& material = scene.materials[static_cast<std::size_t>(index)];
   const bool needs_uv = material.texture || material.checker;
-  if (kind == LaneSurface::Kind::sphere && needs_uv) return resolve_one_by_one(occupant, hits);
+  if (kind == LaneSurface::Kind::sphere && needs_uv) return resolve_one_by_one(occupant);
   const LaneFrame& frame = sheets_.eye(eye_).frames[static_cast<std::size_t>(occupant.frame)];
   if (sheets_.kernels().resolve(frame, occupant.lanes, work_.points) == 0) return index;
-  return resolve_one_by_one(occupant, hits);
+  return resolve_one_by_one(occupant);
 }
 
 void SheetShader::fill_strength(const Light& light, std::size_t index) {
@@ -191,8 +206,7 @@ void SheetShader::fill_diffuse(std::size_t light, int index) {
   for (int i = p.count; i < p.padded; ++i) put(LinearRgb{0.0}, p.diffuse, i);
 }
 
-void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Range range,
-                                 const Occupant& lit, std::span<const Hit> hits) {
+void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Range range) {
   PointSheet& p = work_.points;
   const Hub& hub = tracer_.hub();
   const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(occluder.frame)].scene->surfaces;
@@ -206,13 +220,12 @@ void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Ra
     const RayClock clock{p.trial_time[i], p.trial_rate[i]};
     if (far) {
       scratch_.rays.start(camera_ray_of(i));
-      const FirstHit hit{hits[static_cast<std::size_t>(i)], lit.frame, Extended(p.lambda[i])};
       const ShadowSegment segment{{vec(p.way, i), p.way_length[i]},
                                   vec(p.start, i),
                                   vec(p.way_in_surface, i),
                                   {p.proper_time[i], -p.surface_length[i]},
                                   end};
-      dark = is_shadowed_in(occluder.frame, hub, scratch_.rays, hit, hub.lights[light], segment);
+      dark = is_shadowed_in(occluder.frame, hub, scratch_.rays, hit(i), hub.lights[light], segment);
     } else if (occluder.surface < 0) {
       dark = surfaces.blocked(vec(p.trial_start, i), vec(p.trial_direction, i), 0.0, end, clock);
     } else {
@@ -228,8 +241,8 @@ void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Ra
   }
 }
 
-void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone, Range range,
-                               const Occupant& lit, std::span<const Hit> hits) {
+void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone,
+                               Range range) {
   const auto frame = static_cast<std::size_t>(occluder.frame);
   LaneOccluder lanes{&sheets_.eye(eye_).frames[frame],
                      &sheets_.lamp(light).to_frame[frame],
@@ -243,21 +256,21 @@ void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, cons
   if (robust) lanes.surface = &none;  // of kind `other`: one by one
   if (sheets_.kernels().occlude(lanes, range.first, range.last, work_.points) &&
       lanes.surface->kind == LaneSurface::Kind::other) {
-    try_one_by_one(light, occluder, range, lit, hits);
+    try_one_by_one(light, occluder, range);
   }
 }
 
-void SheetShader::shadow(std::size_t light, const Occupant& occupant, std::span<const Hit> hits) {
+void SheetShader::shadow(std::size_t light) {
   const LampView& view = sheets_.lamp(light);
   LaneCone everything;
   everything.level = -infinity;
   for (const int i : view.unbounded) {
     try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(i)], everything,
-                 {0, work_.points.padded}, occupant, hits);
+                 {0, work_.points.padded});
   }
   if (view.bounded.table().count == 0) return;
   if (tracer_.scene().lights[light].kind == LightKind::distant) {
-    shadow_of_distant(light, occupant, hits);
+    shadow_of_distant(light);
     return;
   }
   // What may shade anything of the tile, of it what may shade anything of this sheet, of that what may shade
@@ -278,13 +291,13 @@ void SheetShader::shadow(std::size_t light, const Occupant& occupant, std::span<
                               work_.lamp_cones.data());
     for (int i = 0; i < near.count; ++i) {
       try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(near.who[i])],
-                   work_.lamp_cones[static_cast<std::size_t>(i)], {first, last}, occupant, hits);
+                   work_.lamp_cones[static_cast<std::size_t>(i)], {first, last});
     }
   }
 }
 
 // Parallel light: in an occluder's frame all segments have one direction, and its shadow is a cylinder.
-void SheetShader::shadow_of_distant(std::size_t light, const Occupant& occupant, std::span<const Hit> hits) {
+void SheetShader::shadow_of_distant(std::size_t light) {
   const PointSheet& p = work_.points;
   const LampTable& table = sheets_.lamp(light).bounded.table();
   const Light& lamp = tracer_.scene().lights[light];
@@ -311,13 +324,12 @@ void SheetShader::shadow_of_distant(std::size_t light, const Occupant& occupant,
     const double aside = glm::dot(x, x) - along * along;
     if (along > radius || aside > radius * radius + 1e-12 * glm::dot(x, x)) continue;
     try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(table.who[i])], everything,
-                 {0, p.padded}, occupant, hits);
+                 {0, p.padded});
   }
 }
 
 // One lamp's light on the points, up to its irradiance; false: none of them is lit.
-bool SheetShader::light_arrives(std::size_t index, const Occupant& occupant, const Effects& effects,
-                                const Material& material, std::span<const Hit> hits,
+bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const Material& material,
                                 LaneReflection& reflection) {
   PointSheet& p = work_.points;
   const Light& light = tracer_.scene().lights[index];
@@ -333,15 +345,15 @@ bool SheetShader::light_arrives(std::size_t index, const Occupant& occupant, con
     }
     return true;
   }
-  sheets_.kernels().arrive(lane_lamp(index, occupant.frame), p);
+  sheets_.kernels().arrive(lane_lamp(index, occupant_->frame), p);
   fill_strength(light, index);
   const int lit = count_lit(p);
   if (lit == 0) return false;
   scratch_.counts.shadow += static_cast<std::uint64_t>(lit);
-  shadow(index, occupant, hits);
+  shadow(index);
   reflection.brightness = lane_brightness(effects.brightness);
   reflection.distant = light.kind == LightKind::distant;
-  reflection.gamma = tracer_.hub().lights[index].to_frame[static_cast<std::size_t>(occupant.frame)].gamma();
+  reflection.gamma = tracer_.hub().lights[index].to_frame[frame()].gamma();
   reflection.specular =
       material.specular <= 0.0 ? 0.0 : material.specular * (material.shininess + 2.0) / (2.0 * pi);
   reflection.shininess = material.shininess;
@@ -349,23 +361,21 @@ bool SheetShader::light_arrives(std::size_t index, const Occupant& occupant, con
   return true;
 }
 
-void SheetShader::light_rgb(const Occupant& occupant, const Material& material, int material_index,
-                            const Effects& effects, std::span<const Hit> hits) {
+void SheetShader::light_rgb(const Material& material, int material_index, const Effects& effects) {
   PointSheet& p = work_.points;
   const LinearRgb own = material.emits ? material.emission.rgb : LinearRgb{0.0};
   for (int k = 0; k < 3; ++k) std::fill_n(p.rgb[k], p.padded, own[k]);
   for (std::size_t i = 0; i < tracer_.scene().lights.size(); ++i) {
     LaneReflection reflection;
-    if (!light_arrives(i, occupant, effects, material, hits, reflection)) continue;
+    if (!light_arrives(i, effects, material, reflection)) continue;
     fill_diffuse(i, material_index);
     sheets_.kernels().add_light(reflection, p);
   }
-  const double gamma = tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].from_camera.gamma();
+  const double gamma = tracer_.hub().frames[frame()].from_camera.gamma();
   sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, p);
 }
 
-void SheetShader::light_spectra(const Occupant& occupant, const Material& material, const Effects& effects,
-                                std::span<const Hit> hits) {
+void SheetShader::light_spectra(const Material& material, const Effects& effects) {
   PointSheet& p = work_.points;
   const std::vector<Light>& lights = tracer_.scene().lights;
   // First what of each lamp reaches the points, then, point by point, its spectrum.
@@ -373,14 +383,14 @@ void SheetShader::light_spectra(const Occupant& occupant, const Material& materi
   for (std::size_t i = 0; i < lights.size(); ++i) {
     LaneReflection reflection;
     SheetScratch::Lamp& lamp = work_.lamp_light[i];
-    lamp.arrives = light_arrives(i, occupant, effects, material, hits, reflection);
+    lamp.arrives = light_arrives(i, effects, material, reflection);
     if (!lamp.arrives) continue;
     std::copy_n(p.lit, p.count, lamp.lit);
     std::copy_n(p.irradiance, p.count, lamp.irradiance);
     std::copy_n(p.specular, p.count, lamp.specular);
     std::copy_n(p.lamp_doppler, p.count, lamp.doppler);
   }
-  const double gamma = tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].from_camera.gamma();
+  const double gamma = tracer_.hub().frames[frame()].from_camera.gamma();
   for (int lane = 0; lane < p.count; ++lane) {
     const DopplerFactor<Camera, Rest> doppler{p.doppler[lane]};
     for (std::size_t k = 0; k < scratch_.wavelengths.size(); ++k) {
@@ -398,15 +408,14 @@ void SheetShader::light_spectra(const Occupant& occupant, const Material& materi
   }
 }
 
-bool SheetShader::shade(const Occupant& occupant, const Effects& effects, std::span<const Hit> hits) {
-  work_.points.frame = occupant.frame;
-  const int index = resolve(occupant, hits);
+bool SheetShader::shade(const Occupant& occupant, const Effects& effects) {
+  const int index = resolve(occupant);
   if (index < 0) return false;
   const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
   if (tracer_.is_spectral() && effects.doppler) {
-    light_spectra(occupant, material, effects, hits);
+    light_spectra(material, effects);
   } else {
-    light_rgb(occupant, material, index, effects, hits);
+    light_rgb(material, index, effects);
   }
   return true;
 }

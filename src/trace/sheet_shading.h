@@ -1,6 +1,7 @@
 // Light on the points of a sheet: what illumination.cpp and shading.cpp do for one.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "sheet_scene.h"
@@ -32,12 +33,20 @@ struct SheetScratch {
   // Hits sorted by what was hit:
   struct Group {
     int who;
-    int count;
+    int count;  ///< of parts
     int next;
+  };
+  /// Those of a sheet's lanes that hit the same.
+  struct Part {
+    int group;
+    int sheet;
+    std::uint64_t mask;
   };
   std::vector<int> group_of;  ///< by occupant: index of its group, or -1
   std::vector<Group> groups;
-  std::vector<int> order;  ///< sheet * sheet_size + lane
+  std::vector<Part> parts;   ///< as found...
+  std::vector<Part> sorted;  ///< ...and by group
+  Hit hits[sheet_size];      ///< of the points; in lanes, only from SheetShader::hit() on
   PointSheet points;
   /// What of a lamp reaches them, for spectra.
   struct Lamp {
@@ -59,42 +68,47 @@ class SheetShader {
   /// Finds for each light what may shade the hits of the sheets with these effects.
   void begin_tile(const Effects& effects);
 
+  /// The points are now others, of this surface.
+  void begin_points(const Occupant& occupant);
+
   /// The colours of work.points, of one surface, into points.rgb. False where they are of several materials:
   /// then the points are known, but not the colours.
-  bool shade(const Occupant& occupant, const Effects& effects, std::span<const Hit> hits);
+  bool shade(const Occupant& occupant, const Effects& effects);
+
+  /// What the ray of a lane of work.points meets.
+  [[nodiscard]] FirstHit hit(int lane);
 
   /// The camera ray of a lane of work.points.
   [[nodiscard]] CameraRay camera_ray_of(int lane) const;
 
  private:
-  int resolve(const Occupant& occupant, std::span<const Hit> hits);
-  int resolve_one_by_one(const Occupant& occupant, std::span<const Hit> hits);
+  int resolve(const Occupant& occupant);
+  int resolve_one_by_one(const Occupant& occupant);
   [[nodiscard]] LaneLamp lane_lamp(std::size_t light, int frame) const;
   void fill_strength(const Light& light, std::size_t index);
   void fill_diffuse(std::size_t light, int material);
-  void shadow(std::size_t light, const Occupant& occupant, std::span<const Hit> hits);
+  void shadow(std::size_t light);
   /// Of points.
   struct Range {
     int first;
     int last;
   };
-  void try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone, Range range,
-                    const Occupant& lit, std::span<const Hit> hits);
-  void try_one_by_one(std::size_t light, const Occupant& occluder, Range range, const Occupant& lit,
-                      std::span<const Hit> hits);
-  void shadow_of_distant(std::size_t light, const Occupant& occupant, std::span<const Hit> hits);
-  void light_rgb(const Occupant& occupant, const Material& material, int material_index,
-                 const Effects& effects, std::span<const Hit> hits);
-  bool light_arrives(std::size_t light, const Occupant& occupant, const Effects& effects,
-                     const Material& material, std::span<const Hit> hits, LaneReflection& reflection);
-  void light_spectra(const Occupant& occupant, const Material& material, const Effects& effects,
-                     std::span<const Hit> hits);
+  void try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone, Range range);
+  void try_one_by_one(std::size_t light, const Occupant& occluder, Range range);
+  void shadow_of_distant(std::size_t light);
+  void light_rgb(const Material& material, int material_index, const Effects& effects);
+  bool light_arrives(std::size_t light, const Effects& effects, const Material& material,
+                     LaneReflection& reflection);
+  void light_spectra(const Material& material, const Effects& effects);
+  [[nodiscard]] std::size_t frame() const { return static_cast<std::size_t>(occupant_->frame); }
 
   const Tracer& tracer_;
   const SheetScene& sheets_;
   int eye_;
   SheetScratch& work_;
   Scratch& scratch_;
+  const Occupant* occupant_ = nullptr;  // whose points they are
+  bool hits_known_ = false;
 };
 
 LaneBrightness lane_brightness(const BrightnessSwitches& on);

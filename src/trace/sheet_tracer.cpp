@@ -38,15 +38,20 @@ class SheetMaker {
     used_ = 0;
     const std::size_t most = (pixels.size() / sheet_size + 1) * (scene_.regions.size() + 1);
     if (work_.sheet_memory.size() < most) work_.sheet_memory.resize(most);
+    const int samples = scene_.film.samples;
     for (std::size_t begin = 0; begin < pixels.size(); begin += sheet_size) {
-      const std::size_t end = std::min(begin + sheet_size, pixels.size());
-      points_.clear();
-      if (scene_.film.samples == 1) {
-        for (std::size_t i = begin; i < end; ++i) points_.push_back({pixels[i].x + 0.5, pixels[i].y + 0.5});
-      }
-      for (std::size_t i = begin; i < end && scene_.film.samples > 1; ++i) {
-        const SampleKey key{scene_.film.seed, image_number, pixels[i].x, pixels[i].y};
-        points_.push_back(sample_point(key, sample, scene_.film.samples));
+      count_ = static_cast<int>(std::min<std::size_t>(sheet_size, pixels.size() - begin));
+      for (int i = 0; i < count_; ++i) {
+        const TilePixel& pixel = pixels[begin + static_cast<std::size_t>(i)];
+        if (samples == 1) {
+          x_[i] = pixel.x + 0.5;
+          y_[i] = pixel.y + 0.5;
+          continue;
+        }
+        const ImagePoint point =
+            sample_point({scene_.film.seed, image_number, pixel.x, pixel.y}, sample, samples);
+        x_[i] = point.x;
+        y_[i] = point.y;
       }
       add_sheets(static_cast<int>(begin));
     }
@@ -56,49 +61,50 @@ class SheetMaker {
  private:
   // One sheet for each of the effects in force among the points.
   void add_sheets(int first_place) {
+    TileSheet& sheet = work_.sheet_memory[used_];
     if (scene_.regions.empty()) {
-      add_sheet(scene_.effects, first_place);
+      sheet.rays.count = count_;
+      for (int i = 0; i < count_; ++i) sheet.place[i] = first_place + i;
+      aim(sheet, scene_.effects, x_, y_);
       return;
     }
-    add_sheet(scene_.effects, first_place);
-    for (const EffectsRegion& region : scene_.regions) add_sheet(region.effects, first_place);
+    add_region(scene_.effects, first_place);
+    for (const EffectsRegion& region : scene_.regions) add_region(region.effects, first_place);
   }
 
-  void add_sheet(const Effects& effects, int first_place) {
+  void add_region(const Effects& effects, int first_place) {
     TileSheet& sheet = work_.sheet_memory[used_];
+    alignas(64) double x[sheet_size];
+    alignas(64) double y[sheet_size];
+    int& count = sheet.rays.count;
+    count = 0;
+    for (int i = 0; i < count_; ++i) {
+      if (&effects_at(scene_, {x_[i], y_[i]}) != &effects) continue;
+      x[count] = x_[i];
+      y[count] = y_[i];
+      sheet.place[count++] = first_place + i;
+    }
+    aim(sheet, effects, x, y);
+  }
+
+  // The directions through the points of a sheet, of which it keeps those that the projection shows.
+  void aim(TileSheet& sheet, const Effects& effects, double* x, double* y) {
     SheetRays& rays = sheet.rays;
     sheet.effects = &effects;
     rays.light_delay = effects.light_delay;
-    rays.count = 0;
-    const bool flat = scene_.camera.lens.projection == Projection::perspective;
-    alignas(64) double x[sheet_size];
-    alignas(64) double y[sheet_size];
     const Lens& lens = scene_.camera.lens;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const ImagePoint& point = points_[i];
-      if (!scene_.regions.empty() && &effects_at(scene_, point) != &effects) continue;
-      const int lane = rays.count;
-      if (flat) {
-        x[lane] = point.x;
-        y[lane] = point.y;
-      } else {
-        const auto direction = direction_at(lens, point);
-        if (!direction) continue;
-        for (int k = 0; k < 3; ++k) rays.direction[k][lane] = (*direction)[k];
-      }
-      sheet.place[lane] = first_place + static_cast<int>(i);
-      ++rays.count;
-    }
+    const bool flat = lens.projection == Projection::perspective;
+    if (!flat) keep_shown(lens, x, y, sheet);
     if (rays.count == 0) return;
     ++used_;
-    rays.padded = (rays.count + 3) / 4 * 4;
+    rays.padded = padded_count(rays.count);
     for (int lane = rays.count; lane < rays.padded; ++lane) {
       x[lane] = x[rays.count - 1];
       y[lane] = y[rays.count - 1];
       for (auto& row : rays.direction) row[lane] = row[rays.count - 1];
     }
     if (flat) {
-      LaneLens lanes{0.5 * lens.width, 0.5 * lens.height, perspective_step(lens), {}, {}, {}};
+      LaneLens lanes{0.5 * lens.width, 0.5 * lens.height, step_, {}, {}, {}};
       for (int k = 0; k < 3; ++k) {
         lanes.forward[k] = lens.forward[k];
         lanes.right[k] = lens.right[k];
@@ -111,11 +117,27 @@ class SheetMaker {
     sheet.bundle = kernels_.bundle(rays);
   }
 
+  static void keep_shown(const Lens& lens, const double* x, const double* y, TileSheet& sheet) {
+    SheetRays& rays = sheet.rays;
+    int kept = 0;
+    for (int i = 0; i < rays.count; ++i) {
+      const auto direction = direction_at(lens, {x[i], y[i]});
+      if (!direction) continue;
+      for (int k = 0; k < 3; ++k) rays.direction[k][kept] = (*direction)[k];
+      sheet.place[kept++] = sheet.place[i];
+    }
+    rays.count = kept;
+  }
+
   const Scene& scene_;
   const SheetKernels& kernels_;
   SheetScratch& work_;
   std::size_t used_ = 0;
-  std::vector<ImagePoint> points_;
+  double step_ = perspective_step(scene_.camera.lens);
+  // The points of up to a sheet of pixels.
+  int count_ = 0;
+  alignas(64) double x_[sheet_size];
+  alignas(64) double y_[sheet_size];
 };
 
 // A bundle around those of all sheets.
@@ -258,11 +280,25 @@ class SheetPainter {
     sort(effects);
     if (work_.groups.empty()) return;
     shader_.begin_tile(effects);
+    work_.points.light_delay = effects.light_delay;
     for (const auto& group : work_.groups) {
       const Occupant& occupant = scene_.occupants()[static_cast<std::size_t>(group.who)];
-      for (int first = group.next - group.count; first < group.next; first += sheet_size) {
-        points(occupant, effects, first, std::min(sheet_size, group.next - first));
+      // Whole sheets as they are; what is left of others together, so that lanes are filled.
+      for (int i = group.next - group.count; i < group.next; ++i) {
+        const auto& part = work_.sorted[static_cast<std::size_t>(i)];
+        if (part.mask != ~std::uint64_t{0}) continue;
+        gather(occupant, part);
+        paint_points(occupant, effects);
       }
+      for (int i = group.next - group.count; i < group.next; ++i) {
+        auto part = work_.sorted[static_cast<std::size_t>(i)];
+        if (part.mask == ~std::uint64_t{0}) continue;
+        while (part.mask != 0) {
+          part.mask = gather(occupant, part);
+          if (work_.points.count == sheet_size) paint_points(occupant, effects);
+        }
+      }
+      if (work_.points.count > 0) paint_points(occupant, effects);
     }
   }
 
@@ -270,15 +306,20 @@ class SheetPainter {
   // frame.
   void sort(const Effects& effects) {
     work_.groups.clear();
+    work_.parts.clear();
     for (std::size_t s = 0; s < work_.sheets.size(); ++s) {
       const TileSheet& sheet = work_.sheets[s];
       if (sheet.effects != &effects) continue;
       for (int lane = 0; lane < sheet.rays.count; ++lane) {
         light_.covered[static_cast<std::size_t>(sheet.place[lane])] = 1;
-        const double who = sheet.rays.who[lane];
+      }
+      std::uint64_t left = first_bits(sheet.rays.count);
+      while (left != 0) {
+        const double who = sheet.rays.who[__builtin_ctzll(left)];
+        const std::uint64_t mask = left & scene_.kernels().same(sheet.rays, who);
+        left &= ~mask;
         if (who < 0.0) {
-          one_ray(sheet, lane,
-                  who == far_hit ? work_.far_hits[static_cast<std::size_t>(sheet.place[lane])] : FirstHit{});
+          without_surface(sheet, mask, who == far_hit);
           continue;
         }
         int& group = work_.group_of[static_cast<std::size_t>(who)];
@@ -287,25 +328,27 @@ class SheetPainter {
           work_.groups.push_back({static_cast<int>(who), 0, 0});
         }
         ++work_.groups[static_cast<std::size_t>(group)].count;
+        work_.parts.push_back({group, static_cast<int>(s), mask});
       }
     }
     int total = 0;
     for (auto& group : work_.groups) {
+      work_.group_of[static_cast<std::size_t>(group.who)] = -1;
       group.next = total;
       total += group.count;
     }
-    work_.order.resize(static_cast<std::size_t>(total));
-    for (std::size_t s = 0; s < work_.sheets.size(); ++s) {
-      const TileSheet& sheet = work_.sheets[s];
-      if (sheet.effects != &effects) continue;
-      for (int lane = 0; lane < sheet.rays.count; ++lane) {
-        if (sheet.rays.who[lane] < 0.0) continue;
-        const int group = work_.group_of[static_cast<std::size_t>(sheet.rays.who[lane])];
-        int& next = work_.groups[static_cast<std::size_t>(group)].next;
-        work_.order[static_cast<std::size_t>(next++)] = static_cast<int>(s) * sheet_size + lane;
-      }
+    work_.sorted.resize(work_.parts.size());
+    for (const auto& part : work_.parts) {
+      int& next = work_.groups[static_cast<std::size_t>(part.group)].next;
+      work_.sorted[static_cast<std::size_t>(next++)] = part;
     }
-    for (const auto& group : work_.groups) work_.group_of[static_cast<std::size_t>(group.who)] = -1;
+  }
+
+  void without_surface(const TileSheet& sheet, std::uint64_t mask, bool far) {
+    for (; mask != 0; mask &= mask - 1) {
+      const int lane = __builtin_ctzll(mask);
+      one_ray(sheet, lane, far ? work_.far_hits[static_cast<std::size_t>(sheet.place[lane])] : FirstHit{});
+    }
   }
 
   // One ray by the law alone, but for the search.
@@ -322,57 +365,79 @@ class SheetPainter {
     if (records_) light_.record[place] = tracer_.surface_of(ray, hit, scratch_);
   }
 
-  void points(const Occupant& occupant, const Effects& effects, int first, int count) {
+  // Adds lanes of a sheet to the points, as many as there is room for; returns the others.
+  std::uint64_t gather(const Occupant& occupant, const SheetScratch::Part& part) {
     PointSheet& p = work_.points;
-    p.count = count;
-    p.padded = (count + 3) / 4 * 4;
-    p.light_delay = effects.light_delay;
-    for (int i = 0; i < p.padded; ++i) {
-      const int from = work_.order[static_cast<std::size_t>(first + std::min(i, count - 1))];
-      const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(from / sheet_size)];
-      const int lane = from % sheet_size;
-      for (int k = 0; k < 3; ++k) p.direction[k][i] = sheet.rays.direction[k][lane];
-      p.lambda[i] = sheet.rays.lambda[lane];
-      p.lane[i] = from;
-      const bool other = occupant.lanes.kind == LaneSurface::Kind::other;
-      hits_[i] = {sheet.rays.lambda[lane], occupant.surface, other ? sheet.part[lane] : 0,
-                  other && sheet.unresolved[lane]};
-      if (other) hits_[i].along = sheet.along[lane];
+    const auto sheet_index = static_cast<std::size_t>(part.sheet);
+    const TileSheet& sheet = work_.sheets[sheet_index];
+    if (part.mask == ~std::uint64_t{0}) {
+      for (int k = 0; k < 3; ++k) std::copy_n(sheet.rays.direction[k], sheet_size, p.direction[k]);
+      std::copy_n(sheet.rays.lambda, sheet_size, p.lambda);
     }
-    const bool lit = scene_.lit_in_lanes(occupant.frame);
-    if (!lit || !shader_.shade(occupant, effects, {hits_, static_cast<std::size_t>(count)})) {
-      for (int i = 0; i < count; ++i) {
+    const int first = p.count;
+    std::uint64_t left = part.mask;
+    for (; left != 0 && p.count < sheet_size; left &= left - 1, ++p.count) {
+      const int lane = __builtin_ctzll(left);
+      p.lane[p.count] = part.sheet * sheet_size + lane;
+      if (part.mask == ~std::uint64_t{0}) continue;
+      for (int k = 0; k < 3; ++k) p.direction[k][p.count] = sheet.rays.direction[k][lane];
+      p.lambda[p.count] = sheet.rays.lambda[lane];
+    }
+    if (occupant.lanes.kind != LaneSurface::Kind::other) return left;
+    for (int i = first; i < p.count; ++i) {
+      const int lane = p.lane[i] % sheet_size;
+      work_.hits[i] = {p.lambda[i], occupant.surface, sheet.part[lane], sheet.unresolved[lane],
+                       sheet.along[lane]};
+    }
+    return left;
+  }
+
+  // The colours of the points gathered, all of one surface; then there are none.
+  void paint_points(const Occupant& occupant, const Effects& effects) {
+    PointSheet& p = work_.points;
+    p.padded = padded_count(p.count);
+    for (int i = p.count; i < p.padded; ++i) {
+      for (auto& row : p.direction) row[i] = row[p.count - 1];
+      p.lambda[i] = p.lambda[p.count - 1];
+    }
+    shader_.begin_points(occupant);
+    if (scene_.lit_in_lanes(occupant.frame) && shader_.shade(occupant, effects)) {
+      put_colours(occupant);
+    } else {
+      for (int i = 0; i < p.count; ++i) {
         const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
-        one_ray(sheet, p.lane[i] % sheet_size, first_hit_of(occupant, i));
+        one_ray(sheet, p.lane[i] % sheet_size, shader_.hit(i));
       }
-      return;
     }
-    for (int i = 0; i < count; ++i) {
+    p.count = 0;
+  }
+
+  void put_colours(const Occupant& occupant) {
+    const PointSheet& p = work_.points;
+    const bool other = occupant.lanes.kind == LaneSurface::Kind::other;
+    for (int i = 0; i < p.count; ++i) {
       const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
       const auto place = static_cast<std::size_t>(sheet.place[p.lane[i] % sheet_size]);
       light_.colour[place] = {p.rgb[0][i], p.rgb[1][i], p.rgb[2][i]};
-      if (hits_[i].unresolved) ++scratch_.counts.unresolved;
-      if (records_) light_.record[place] = record_of(occupant, i);
+      if (other && work_.hits[i].unresolved) ++scratch_.counts.unresolved;
+      if (records_) light_.record[place] = record_of(i);
     }
   }
 
-  [[nodiscard]] FirstHit first_hit_of(const Occupant& occupant, int i) const {
-    return {hits_[i], occupant.frame, Extended(work_.points.lambda[i])};
-  }
-
-  SurfaceRecord record_of(const Occupant& occupant, int i) {
+  SurfaceRecord record_of(int i) {
     const PointSheet& p = work_.points;
     const Scene& scene = tracer_.scene();
     scratch_.rays.start(shader_.camera_ray_of(i));
+    const FirstHit hit = shader_.hit(i);
     SurfaceRecord record;
-    record.object_id = object_of(scene, first_hit_of(occupant, i)).id;
+    record.object_id = object_of(scene, hit).id;
     record.distance = p.lambda[i];
     record.doppler = p.doppler[i];
     record.emission_time = scratch_.rays.in(0).at(Extended(p.lambda[i])).t / scene.c;
     record.proper_time = p.proper_time[i] / scene.c;
     record.position = {p.position[0][i], p.position[1][i], p.position[2][i]};
     record.normal = {p.normal[0][i], p.normal[1][i], p.normal[2][i]};
-    record.unresolved = hits_[i].unresolved;
+    record.unresolved = hit.hit.unresolved;
     return record;
   }
 
@@ -384,7 +449,6 @@ class SheetPainter {
   Scratch& scratch_;
   TileLight& light_;
   SheetShader shader_;
-  Hit hits_[sheet_size];
 };
 
 }  // namespace
@@ -405,14 +469,15 @@ std::unique_ptr<SheetScratch, void (*)(SheetScratch*)> SheetTracer::make_scratch
 
 void SheetTracer::trace(std::span<const TilePixel> pixels, std::int64_t image_number, int sample, int eye,
                         bool records, SheetScratch& work, Scratch& scratch, TileLight& light) const {
-  light.colour.assign(pixels.size(), LinearRgb{0.0});
   light.covered.assign(pixels.size(), 0);
   light.record.assign(records ? pixels.size() : 0, SurfaceRecord{});
   SheetMaker(tracer_->scene(), scene_->kernels(), work).make(pixels, image_number, sample);
-  if (work.sheets.empty()) return;
-  for (const auto& sheet : work.sheets) {
-    scratch.counts.primary += static_cast<std::uint64_t>(sheet.rays.count);
-  }
+  std::size_t rays = 0;
+  for (const auto& sheet : work.sheets) rays += static_cast<std::size_t>(sheet.rays.count);
+  scratch.counts.primary += rays;
+  light.colour.resize(pixels.size());
+  if (rays < pixels.size()) std::ranges::fill(light.colour, LinearRgb{0.0});
+  if (rays == 0) return;
   SheetSearch(*tracer_, *scene_, eye, work, scratch).find();
   SheetPainter(*tracer_, *scene_, eye, records, work, scratch, light).paint();
 }

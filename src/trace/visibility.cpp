@@ -5,10 +5,13 @@
 
 namespace backlight {
 
+const Object& object_of(const Scene& scene, int frame, int surface) {
+  const SceneFrame& of = scene.frames[static_cast<std::size_t>(frame)];
+  return scene.objects[static_cast<std::size_t>(of.object_of_surface[static_cast<std::size_t>(surface)])];
+}
+
 const Object& object_of(const Scene& scene, const FirstHit& hit) {
-  const SceneFrame& frame = scene.frames[static_cast<std::size_t>(hit.frame)];
-  const int object = frame.object_of_surface[static_cast<std::size_t>(hit.hit.surface)];
-  return scene.objects[static_cast<std::size_t>(object)];
+  return object_of(scene, hit.frame, hit.hit.surface);
 }
 
 int material_of(const Scene& scene, const FirstHit& hit, const SurfacePoint& point) {

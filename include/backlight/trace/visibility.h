@@ -17,6 +17,9 @@ struct FirstHit {
   [[nodiscard]] bool found() const { return hit.found(); }
 };
 
+/// The object that a surface of a frame belongs to.
+const Object& object_of(const Scene& scene, int frame, int surface);
+
 /// The object whose surface was hit.
 const Object& object_of(const Scene& scene, const FirstHit& hit);
 
