@@ -70,6 +70,7 @@ std::string fault_of(const ImageLayout& layout) {
 bool half_overflows(const Image& image) {
   for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
     if (image.layout().channels[channel].precision == ChannelPrecision::half &&
+        !all_within(image.plane(channel), greatest_half) &&
         !std::ranges::all_of(image.plane(channel), fits_half)) {
       return true;
     }
@@ -164,8 +165,9 @@ class ExrWriter::Implementation {
   static void round_to_half(std::span<const float> values, std::vector<half>& rounded,
                             const std::string& channel) {
     rounded.resize(values.size());
+    const bool all_fit = all_within(values, greatest_half);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!fits_half(values[i])) {
+      if (!all_fit && !fits_half(values[i])) {
         throw std::runtime_error("the value " + std::to_string(values[i]) + " of channel " + channel +
                                  " is beyond half precision; store it as float");
       }

@@ -2,13 +2,24 @@
 
 #include <ImfMultiView.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace backlight {
 
 bool fits_half(float value) {
   return !std::isfinite(value) || std::abs(value) <= greatest_half;
+}
+
+// By the bits, in whose order the sizes of numbers are, and NaNs beyond all of them: a loop that compilers
+// put into vectors.
+bool all_within(std::span<const float> values, float greatest) {
+  std::int32_t most = 0;
+  for (const float value : values) most = std::max(most, std::bit_cast<std::int32_t>(value) & 0x7fffffff);
+  return most <= std::bit_cast<std::int32_t>(greatest);
 }
 
 std::string channel_name(std::string_view name, const std::vector<std::string>& views, std::size_t view) {

@@ -6,15 +6,14 @@
 namespace backlight {
 namespace {
 
-// Nearly every image is: a loop that compilers make fast decides it.
+// Nearly every image is.
 bool is_without_fault(const Image& image) {
-  bool without = true;
   for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
     const bool half = image.layout().channels[channel].precision == ChannelPrecision::half;
     const float greatest = half ? greatest_half : std::numeric_limits<float>::max();
-    for (const float value : image.plane(channel)) without &= std::abs(value) <= greatest;  // a NaN is not
+    if (!all_within(image.plane(channel), greatest)) return false;
   }
-  return without;
+  return true;
 }
 
 }  // namespace

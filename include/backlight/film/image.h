@@ -33,6 +33,9 @@ enum class ChannelPrecision {
 /// half.
 bool fits_half(float value);
 
+/// Whether every value lies within ±`greatest`; one that is not a number does not.
+bool all_within(std::span<const float> values, float greatest);
+
 /// The greatest number in half precision.
 inline constexpr float greatest_half = 65504.0F;
 

@@ -1,0 +1,207 @@
+#include "view_renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+
+namespace backlight {
+namespace {
+
+struct BlockPlace {
+  int right;
+  int down;
+};
+
+constexpr auto block_order = [] {
+  std::array<BlockPlace, block_size * block_size> order{};
+  for (unsigned i = 0; i < order.size(); ++i) {
+    order[i] = {static_cast<int>((i & 1U) | ((i >> 1U) & 2U) | ((i >> 2U) & 4U)),
+                static_cast<int>(((i >> 1U) & 1U) | ((i >> 2U) & 2U) | ((i >> 3U) & 4U))};
+  }
+  return order;
+}();
+
+// Whether the rest of a tile's samples will take less than a moment, by what those before have taken: when a
+// run is stopped, or looked at, the tile is then not traced in vain.
+bool is_worth_finishing(std::chrono::steady_clock::time_point begin, int done, int samples) {
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  constexpr double moment = 0.5;  // seconds
+  return done > 0 && taken.count() * (samples - done) < moment * done;
+}
+
+}  // namespace
+
+template <class Estimate>
+void ViewRenderer::write_all(ThreadMemory& m, const std::vector<SurfaceRecord>* records,
+                             const Estimate& estimate) {
+  const bool plain = !has_stars_ && !has_data_;
+  SampleCounts samples;  // beyond the reach of the pixels' pointers: the compiler keeps it in registers
+  std::uint64_t non_finite = 0;
+  const PixelWriter writer = writer_;
+  std::uint8_t* const done = done_.data();
+  const PixelBox window = image_.layout().data;
+  const TilePixel* const pixels = m.pixels.data();
+  const std::size_t count = m.pixels.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [x, y] = pixels[k];
+    PixelEstimate pixel = estimate(k);
+    if (has_stars_ && pixel.coverage > 0.0) pixel.colour += tracer_.stars(x, y, eye_, m.scratch);
+    const auto at = static_cast<std::size_t>((y - window.y0) * window.width() + (x - window.x0));
+    bool finite = writer.colour(at, pixel.colour, pixel.coverage);
+    if (!plain) finite &= data(x, y, records != nullptr ? &(*records)[k] : nullptr, pixel.samples, m);
+    samples.add(pixel.samples, pixel.at_limit);
+    non_finite += finite ? 0 : 1;
+    done[at] = 1;
+  }
+  m.samples += samples;
+  m.scratch.counts.non_finite += non_finite;
+}
+
+void ViewRenderer::tile(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& memory) {
+  if (sheets_ != nullptr) {
+    try {
+      memory.sampler ? tile_to_tolerance(box, stop, memory) : tile_in_sheets(box, stop, memory);
+      return;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception&) {
+      // One by one, below, it turns out which pixel it was.
+    }
+  }
+  if (memory.sampler) {
+    tile_to_tolerance(box, stop, memory);
+    return;
+  }
+  for (int y = box.y0; y < box.y1; ++y) {
+    for (int x = box.x0; x < box.x1; ++x) {
+      if (done_[image_.offset(x, y)] != 0) continue;
+      if (stop.load(std::memory_order_relaxed)) return;
+      at_pixel(x, y, [&] { pixel(x, y, memory); });
+    }
+  }
+}
+
+void ViewRenderer::tile_to_tolerance(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {
+  list_missing(box, m.pixels);
+  if (m.pixels.empty()) return;
+  const auto trace = [&](std::span<const TilePixel> pixels, int index, std::vector<PixelSample>& samples) {
+    if (stop.load(std::memory_order_relaxed)) return false;
+    trace_samples(pixels, index, m, samples);
+    return true;
+  };
+  if (!m.sampler->tile(box, m.pixels, trace)) return;
+  write_all(m, nullptr, [&](std::size_t k) { return m.sampler->estimates()[k]; });
+}
+
+void ViewRenderer::trace_samples(std::span<const TilePixel> pixels, int index, ThreadMemory& m,
+                                 std::vector<PixelSample>& samples) const {
+  const Scene& scene = tracer_.scene();
+  samples.assign(pixels.size(), {});
+  if (sheets_ != nullptr) {
+    sheets_->trace(pixels, settings_.image_number, index, eye_, false, *m.sheet, m.scratch, m.light);
+  }
+  for (std::size_t k = 0; k < pixels.size(); ++k) {
+    const auto [x, y] = pixels[k];
+    const ImagePoint point =
+        sample_point({scene.film.seed, settings_.image_number, x, y}, index, scene.film.samples);
+    samples[k].x = point.x - x;
+    samples[k].y = point.y - y;
+    if (sheets_ == nullptr) {
+      at_pixel(x, y, [&] { trace_point(point, m.scratch, samples[k]); });
+    } else if (m.light.covered[k] != 0) {
+      samples[k].covered = true;
+      samples[k].colour = m.light.colour[k];
+    }
+  }
+}
+
+void ViewRenderer::trace_point(const ImagePoint& point, Scratch& scratch, PixelSample& sample) const {
+  const Effects& effects = effects_at(tracer_.scene(), point);
+  const auto ray = camera_ray(tracer_.scene().camera, point, effects, eye_);
+  if (!ray) return;
+  sample.covered = true;
+  sample.colour = tracer_.colour(*ray, effects, scratch);
+}
+
+void ViewRenderer::list_missing(const PixelBox& box, std::vector<TilePixel>& pixels) const {
+  pixels.resize(static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()));
+  TilePixel* next = pixels.data();
+  const int width = image_.layout().data.width();
+  for (int top = box.y0; top < box.y1; top += block_size) {
+    for (int left = box.x0; left < box.x1; left += block_size) {
+      const bool whole = left + block_size <= box.x1 && top + block_size <= box.y1;
+      const std::uint8_t* const done = done_.data() + image_.offset(left, top);
+      for (const auto [right, down] : block_order) {
+        const int x = left + right;
+        const int y = top + down;
+        const bool inside = whole || (x < box.x1 && y < box.y1);
+        if (inside && done[down * width + right] == 0) *next++ = {x, y};
+      }
+    }
+  }
+  pixels.resize(static_cast<std::size_t>(next - pixels.data()));
+}
+
+void ViewRenderer::tile_in_sheets(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {
+  list_missing(box, m.pixels);
+  const Scene& scene = tracer_.scene();
+  const int samples = scene.film.samples;
+  const bool records = samples == 1 && has_data_channels(scene) && !has_light_channels(scene);
+  if (samples > 1) {
+    m.sums.assign(m.pixels.size(), LinearRgb{0.0});
+    m.covered.assign(m.pixels.size(), 0);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < samples; ++i) {
+    if (stop.load(std::memory_order_relaxed) && !is_worth_finishing(begin, i, samples)) return;
+    sheets_->trace(m.pixels, settings_.image_number, i, eye_, records, *m.sheet, m.scratch, m.light);
+    for (std::size_t k = 0; k < m.pixels.size() && samples > 1; ++k) {
+      if (m.light.covered[k] == 0) continue;
+      m.sums[k] += m.light.colour[k];
+      ++m.covered[k];
+    }
+  }
+  const std::vector<SurfaceRecord>* known = records ? &m.light.record : nullptr;
+  if (samples == 1) {
+    write_all(m, known, [&](std::size_t k) {
+      return PixelEstimate{LinearRgb{0.0} + m.light.colour[k], double(m.light.covered[k]), 1};
+    });
+  } else {
+    write_all(m, known, [&](std::size_t k) {
+      return PixelEstimate{m.sums[k] / double(samples), double(m.covered[k]) / samples, samples};
+    });
+  }
+}
+
+void ViewRenderer::pixel(int x, int y, ThreadMemory& m) {
+  const Scene& scene = tracer_.scene();
+  const int samples = scene.film.samples;
+  LinearRgb sum{0.0};
+  int covered = 0;
+  for (int i = 0; i < samples; ++i) {
+    PixelSample sample;
+    trace_point(sample_point({scene.film.seed, settings_.image_number, x, y}, i, samples), m.scratch, sample);
+    if (!sample.covered) continue;
+    sum += sample.colour;
+    ++covered;
+  }
+  m.pixels = {{x, y}};
+  write_all(m, nullptr, [&](std::size_t) {
+    return PixelEstimate{sum / double(samples), double(covered) / samples, samples};
+  });
+}
+
+bool ViewRenderer::data(int x, int y, const SurfaceRecord* known, int samples, ThreadMemory& m) const {
+  if (!has_data_) return true;
+  if (known != nullptr) return writer_.data(x, y, {*known, samples});
+  const Scene& scene = tracer_.scene();
+  Scratch& scratch = m.scratch;
+  const ImagePoint centre{x + 0.5, y + 0.5};
+  const Effects& effects = effects_at(scene, centre);
+  const auto ray = camera_ray(scene.camera, centre, effects, eye_);
+  SurfaceRecord record = ray ? tracer_.surface(*ray, scratch) : SurfaceRecord{};
+  if (ray && has_light_channels(scene)) tracer_.add_light(*ray, effects, record, scratch);
+  return writer_.data(x, y, {record, samples});
+}
+
+}  // namespace backlight

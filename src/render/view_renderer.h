@@ -1,0 +1,108 @@
+// The pixels of one view of an image, a tile at a time.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <new>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "backlight/camera/sampling.h"
+#include "backlight/render/adaptive_sampling.h"
+#include "backlight/render/render.h"
+#include "channels.h"
+
+namespace backlight {
+
+inline constexpr int block_size = 8;  ///< a sheet of rays is a block's
+
+// What one thread works with.
+struct ThreadMemory {
+  explicit ThreadMemory(const Tracer& tracer, const SheetTracer* sheets)
+      : scratch(tracer.make_scratch()), sheet(nullptr, nullptr) {
+    if (sheets != nullptr) sheet = sheets->make_scratch();
+    const FilmSettings& film = tracer.scene().film;
+    if (film.adaptive) sampler.emplace(film.tolerance, PixelBox{0, 0, film.width, film.height});
+  }
+
+  Scratch scratch;
+  std::unique_ptr<SheetScratch, void (*)(SheetScratch*)> sheet;
+  TileLight light;
+  std::vector<TilePixel> pixels;
+  std::vector<LinearRgb> sums;
+  std::vector<int> covered;
+  std::optional<AdaptiveSampler> sampler;  // where the number of samples is chosen
+  SampleCounts samples;
+};
+
+// The pixels of one view: what a tile task needs.
+class ViewRenderer {
+ public:
+  ViewRenderer(const Tracer& tracer, const SheetTracer* sheets, const RenderSettings& settings, int eye,
+               PartialImage& partial, std::size_t view)
+      : tracer_(tracer),
+        sheets_(sheets),
+        settings_(settings),
+        eye_(eye),
+        has_stars_(tracer.has_stars()),
+        has_data_(has_data_channels(tracer.scene())),
+        writer_(tracer.scene(), partial.image, view),
+        image_(partial.image),
+        done_(partial.done[view]) {}
+
+  // Traces what is missing of a tile; gives up between two pixels, or two samples of the tile, when `stop`
+  // turns true and the tile is not about to be done: one of many samples may take minutes.
+  void tile(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& memory);
+
+ private:
+  // What goes wrong in `work` is told with the pixel that it was for.
+  template <class Work>
+  static void at_pixel(int x, int y, const Work& work) {
+    try {
+      work();
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw PixelFailure(x, y, error.what());
+    }
+  }
+
+  // As many samples of each missing pixel as it needs.
+  void tile_to_tolerance(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m);
+
+  void trace_samples(std::span<const TilePixel> pixels, int index, ThreadMemory& m,
+                     std::vector<PixelSample>& samples) const;
+
+  void trace_point(const ImagePoint& point, Scratch& scratch, PixelSample& sample) const;
+
+  // Writes the pixels of m.pixels, and that they are done. `estimate(k)`: the colour of one; `records`: what
+  // each of them sees, where that is known.
+  template <class Estimate>
+  void write_all(ThreadMemory& m, const std::vector<SurfaceRecord>* records, const Estimate& estimate);
+
+  // In squares of a sheet each, and those within them in squares within squares: neighbours in this order are
+  // neighbours in the image.
+  void list_missing(const PixelBox& box, std::vector<TilePixel>& pixels) const;
+
+  // The same as pixel(), for all at once.
+  void tile_in_sheets(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m);
+
+  void pixel(int x, int y, ThreadMemory& m);
+
+  // The data channels, of which `known` is what the pixel sees where it is not null. Whether all are finite.
+  bool data(int x, int y, const SurfaceRecord* known, int samples, ThreadMemory& m) const;
+
+  const Tracer& tracer_;
+  const SheetTracer* sheets_;  // null: one ray at a time
+  const RenderSettings& settings_;
+  int eye_;
+  bool has_stars_;
+  bool has_data_;
+  PixelWriter writer_;
+  const Image& image_;
+  std::vector<std::uint8_t>& done_;
+};
+
+}  // namespace backlight
