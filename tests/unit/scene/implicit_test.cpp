@@ -96,7 +96,7 @@ TEST(CompileBlend, FacesOfBoxAndCylinderAreResolved) {
     const Scene scene =
         compiled(camera + "[[object]]\nshape = \"union\"\nblend = 0.4\nposition = [0.1, 0.2, 0.3]\n" +
                  "part = [{ " + part + " }, { shape = \"sphere\", radius = 1, position = [9, 0, 0] }]\n");
-    const SurfaceSet& set = scene.frames[0].surfaces;
+    const SurfaceSet& set = *scene.frames[0].surfaces;
     for (int i = 0; i < 60; ++i) {
       const Vec3 from{0.1 + 0.02 * i - 0.59, 8.0, 0.3 + 0.013 * i - 0.4};
       const Hit top = set.nearest(from, {0.01, -1.0, 0.02});
@@ -109,7 +109,7 @@ TEST(CompileBlend, FacesOfBoxAndCylinderAreResolved) {
                "part = [{ shape = \"box\", size = [2, 2, 2] }, { shape = \"box\", size = [2, 2, 2] }]\n");
   // The same twice: f = d - 1/4, whose corner is an eighth of a sphere of radius 1/4.
   const Vec3 diagonal = glm::normalize(Vec3{1, 1, 1});
-  const Hit corner = two.frames[0].surfaces.nearest(5.0 * diagonal, -diagonal);
+  const Hit corner = two.frames[0].surfaces->nearest(5.0 * diagonal, -diagonal);
   EXPECT_NEAR(5.0 - corner.lambda, std::sqrt(3.0) + 0.25, 1e-13);
 }
 
