@@ -1,8 +1,7 @@
 #include "delivery_queue.h"
 
-#include <chrono>
+#include <algorithm>
 #include <exception>
-#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -22,51 +21,94 @@ Result<void> result_of(const Work& work) {
   }
 }
 
-template <typename Work>
-std::future<void> begin(const Work& work) {
-  try {
-    return std::async(std::launch::async, work);
-  } catch (const std::system_error&) {  // no more threads are to be had
-    work();
-    std::promise<void> done;
-    done.set_value();
-    return done.get_future();
-  }
-}
-
 }  // namespace
 
-bool DeliveryQueue::has_room_for(std::size_t bytes) const {
-  return on_their_way_.empty() || (on_their_way_.size() < most_images && bytes_ + bytes <= most_bytes);
+DeliveryQueue::~DeliveryQueue() {
+  wait();
+  const std::lock_guard lock(guard_);
+  closing_ = true;
+  has_work_.notify_all();
 }
 
-void DeliveryQueue::settle_first() {
-  on_their_way_.front().done.get();
-  bytes_ -= on_their_way_.front().bytes;
-  on_their_way_.pop_front();
+bool DeliveryQueue::has_room_for(std::size_t bytes) const {
+  if (on_their_way_.empty()) return true;
+  return on_their_way_.size() < most_images && bytes_ + bytes <= most_bytes;
 }
 
 void DeliveryQueue::add(std::size_t bytes, Store store, Tell tell) {
-  const auto is_done = [](const OnItsWay& item) {
-    return item.done.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  };
-  while (!has_room_for(bytes) || (!on_their_way_.empty() && is_done(on_their_way_.front()))) settle_first();
-
-  // The turn of the next is a promise of its own: to wait for the thread would keep its image.
-  const auto has_told = std::make_shared<std::promise<void>>();
-  const std::shared_future<void> turn = std::exchange(all_have_told_, has_told->get_future().share());
-  const auto work = [this, turn, has_told, store = std::move(store), tell = std::move(tell)] {
-    const Result<void> stored = result_of(store);
-    if (turn.valid()) turn.wait();
-    if (!result_of([&] { return tell(stored); }).ok()) failed_.store(true);
-    has_told->set_value();
-  };
-  on_their_way_.push_back({bytes, begin(work)});
+  Lock lock(guard_);
+  has_room_.wait(lock, [&] { return has_room_for(bytes); });
+  auto item = std::make_unique<Item>();
+  item->bytes = bytes;
+  item->store = std::move(store);
+  item->tell = std::move(tell);
+  on_their_way_.push_back(std::move(item));
   bytes_ += bytes;
+  ++not_taken_;
+  if (idle_ < not_taken_) start_thread();
+  if (!threads_.empty()) {
+    has_work_.notify_one();
+    return;
+  }
+  while (store_one(lock)) {
+  }
+}
+
+// With the lock. Without one more the others take longer; without any, the caller's does the work.
+void DeliveryQueue::start_thread() {
+  if (threads_.size() >= most_images) return;
+  try {
+    threads_.emplace_back([this] { work(); });
+  } catch (const std::system_error&) {
+    return;
+  }
 }
 
 void DeliveryQueue::wait() {
-  while (!on_their_way_.empty()) settle_first();
+  Lock lock(guard_);
+  has_room_.wait(lock, [this] { return on_their_way_.empty(); });
+}
+
+void DeliveryQueue::work() {
+  Lock lock(guard_);
+  while (true) {
+    ++idle_;
+    has_work_.wait(lock, [this] { return not_taken_ > 0 || closing_; });
+    --idle_;
+    if (!store_one(lock)) return;
+  }
+}
+
+// With the lock, which it gives up while it stores and tells. False if nothing was left to store.
+bool DeliveryQueue::store_one(Lock& lock) {
+  const auto next = std::find_if(on_their_way_.begin(), on_their_way_.end(),
+                                 [](const auto& item) { return !item->is_taken; });
+  if (next == on_their_way_.end()) return false;
+  Item& item = **next;
+  item.is_taken = true;
+  --not_taken_;
+  lock.unlock();
+  Result<void> stored = result_of(item.store);
+  lock.lock();
+  item.stored = std::move(stored);
+  tell_in_order(lock);
+  return true;
+}
+
+// Whoever stores the image that the others wait for tells of them too.
+void DeliveryQueue::tell_in_order(Lock& lock) {
+  if (is_telling_) return;
+  is_telling_ = true;
+  while (!on_their_way_.empty() && on_their_way_.front()->stored) {
+    Item& item = *on_their_way_.front();
+    lock.unlock();
+    if (!result_of([&] { return item.tell(*item.stored); }).ok()) failed_.store(true);
+    lock.lock();
+    bytes_ -= item.bytes;
+    on_their_way_.pop_front();
+    has_room_.notify_all();
+  }
+  is_telling_ = false;
 }
 
 }  // namespace backlight

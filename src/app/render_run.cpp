@@ -23,30 +23,17 @@
 namespace backlight {
 namespace {
 
-std::string details(const Scene& scene, const RenderSettings& settings, const RenderStatistics& statistics) {
-  const std::string colour = settings.wavelengths > 0 ? std::to_string(settings.wavelengths) + " wavelengths"
-                                                      : "red, green and blue";
-  return "  t = " + json_number(scene.time) + " s, " + json_number(statistics.samples.mean()) +
-         " samples a pixel, " + colour + ", " + std::to_string(statistics.rays.primary) + " camera rays, " +
-         std::to_string(statistics.rays.shadow) + " shadow rays, " + std::to_string(statistics.threads) +
-         " threads";
+int threads_for(const RenderOptions& options) {
+  return options.threads > 0 ? options.threads : usable_threads();
 }
 
 RenderSettings settings_for(const RenderOptions& options, const Scene& scene, const Needs& needs) {
   RenderSettings settings;
-  settings.threads = options.threads > 0 ? options.threads : usable_threads();
+  settings.threads = threads_for(options);
   settings.crop = options.crop;
   settings.wavelengths = needs.wavelengths;
   settings.image_number = static_cast<std::int64_t>(std::floor(std::clamp(scene.frame, -1e15, 1e15)));
   return settings;
-}
-
-void add(RenderStatistics& sum, const RenderStatistics& more) {
-  sum.rays += more.rays;
-  sum.samples += more.samples;
-  sum.strategy = more.strategy;
-  sum.seconds += more.seconds;
-  sum.threads = more.threads;
 }
 
 std::filesystem::path claim_path(const PlannedImage& image) {
@@ -58,36 +45,6 @@ PixelBox one_pixel(int x, int y) {
 }
 
 }  // namespace
-
-ImageRecogniser::ImageRecogniser(const RenderOptions& options, const Description& description,
-                                 std::vector<std::string> digests)
-    : options_(&options), description_(&description), digests_(std::move(digests)) {}
-
-Result<ImageRecogniser> ImageRecogniser::of(const RenderOptions& options, SceneSession& session) {
-  auto digests = session.resource_digests();
-  if (!digests.ok()) return digests.failure();
-  return ImageRecogniser(options, session.description(), std::move(digests).value());
-}
-
-ImageOrigin ImageRecogniser::origin(const PlannedImage& image) const {
-  ImageOrigin origin{"Backlight " BACKLIGHT_VERSION,
-                     options_->scene.file.filename().string(),
-                     description_->sha256,
-                     description_->overrides,
-                     {}};
-  if (const auto facts = image_facts(*description_, image.request)) {
-    origin.identity = image_identity(origin, digests_, *facts);
-  }
-  return origin;
-}
-
-std::string ImageRecogniser::identity(const PlannedImage& image) const {
-  return origin(image).identity;
-}
-
-bool ImageRecogniser::is_complete(const PlannedImage& image) const {
-  return is_complete_image(image.exr, identity(image), options_->crop, options_->storage);
-}
 
 RenderRun::RenderRun(const RenderOptions& options, SceneSession& session, const ImageRecogniser& recogniser,
                      const std::vector<PlannedImage>& images, StatisticsFile statistics)
@@ -101,50 +58,91 @@ RenderRun::RenderRun(const RenderOptions& options, SceneSession& session, const 
 
 int RenderRun::run(Scene first) {
   first_ = std::move(first);
-  std::vector<const PlannedImage*> waiting;
-  Outcome outcome = take_all(waiting);
+  std::vector<const PlannedImage*> all;
+  for (const PlannedImage& image : images_) all.push_back(&image);
+  threads_.emplace(threads_for(options_), pause_requested());
+  serve_in_background();  // the storing threads too, which are begun from here
+  Outcome outcome = take_all(all);
   if (outcome == Outcome::made || outcome == Outcome::failed) {
-    const Outcome others = wait_for_others(std::move(waiting));
+    const Outcome others = wait_for_others();
     if (others != Outcome::made) outcome = others;
   }
   deliveries_.wait();
+  tell_time();
   if (outcome == Outcome::stopped) return exit_stopped + stop_signal();
   if (outcome == Outcome::file_trouble || deliveries_.has_failed()) return exit_file_trouble;
   return outcome == Outcome::made ? exit_success : exit_frame_failed;
 }
 
-// `waiting` are those that other processes work on. `failed`: not all of the others could be made.
-RenderRun::Outcome RenderRun::take_all(std::vector<const PlannedImage*>& waiting) {
+// Those that other processes work on go to waiting_. `failed`: not all of the others could be made.
+RenderRun::Outcome RenderRun::take_all(const std::vector<const PlannedImage*>& images) {
   bool all_made = true;
-  for (const PlannedImage& image : images_) {
-    if (deliveries_.has_failed()) return Outcome::file_trouble;
-    const bool stopped_before = stop_requested();
-    const Outcome outcome = stopped_before ? Outcome::stopped : take(image);
-    first_.reset();
-    if (outcome == Outcome::stopped || outcome == Outcome::file_trouble) return outcome;
-    if (outcome == Outcome::claimed_by_another) waiting.push_back(&image);
+  const auto ends_the_run = [&](Outcome outcome) {
     if (outcome == Outcome::failed) all_made = false;
+    return outcome == Outcome::stopped || outcome == Outcome::file_trouble;
+  };
+  for (const PlannedImage* image : images) {
+    if (const Outcome outcome = make_room(); ends_the_run(outcome)) return outcome;
+    const Outcome outcome = take(*image);
+    first_.reset();
+    if (outcome == Outcome::claimed_by_another) waiting_.push_back(image);
+    if (ends_the_run(outcome)) {
+      // What is in hand is nearly done; a file that cannot be written does not undo it.
+      const Outcome rest = finish_all();
+      return rest == Outcome::stopped ? rest : outcome;
+    }
   }
+  if (const Outcome outcome = finish_all(); ends_the_run(outcome)) return outcome;
   return all_made ? Outcome::made : Outcome::failed;
 }
 
+// Until another image may be begun: one is traced at a time, and the next is ready when its end is near. Of
+// images that take no longer than a few time slices of the scheduler there are more, or tracing would wait
+// for this thread to get its turn.
+RenderRun::Outcome RenderRun::make_room() {
+  constexpr double ahead = 0.06;  // seconds
+  const auto most = static_cast<std::size_t>(std::clamp(ahead / std::max(last_seconds_, 1e-6), 2.0, 24.0));
+  Outcome outcome = Outcome::made;
+  while (!in_hand_.empty() && (in_hand_.size() >= most || threads_->first_is_done())) {
+    outcome = std::max(outcome, finish_first());
+    if (outcome > Outcome::failed) break;
+  }
+  threads_->wait_for_tail();
+  if (stop_requested()) {
+    const Outcome rest = finish_all();
+    return rest == Outcome::file_trouble ? rest : Outcome::stopped;
+  }
+  return deliveries_.has_failed() ? Outcome::file_trouble : outcome;
+}
+
+// The worst that came of them.
+RenderRun::Outcome RenderRun::finish_all() {
+  Outcome worst = Outcome::made;
+  while (!in_hand_.empty()) worst = std::max(worst, finish_first());
+  return worst;
+}
+
+RenderRun::Outcome RenderRun::finish_first() {
+  const std::shared_ptr<Work> work = in_hand_.front();
+  const Outcome outcome = explained(*work->image, work->scene.film, [&] { return finish(work); });
+  in_hand_.pop_front();
+  if (outcome != Outcome::made) progress_.drop_image();
+  if (outcome == Outcome::claimed_by_another) waiting_.push_back(work->image);
+  return outcome;
+}
+
 // What another process does not finish falls to this one: at the end every image is there, whoever made it.
-RenderRun::Outcome RenderRun::wait_for_others(std::vector<const PlannedImage*> waiting) {
+RenderRun::Outcome RenderRun::wait_for_others() {
   bool all_made = true;
-  if (!waiting.empty() && options_.verbosity != Verbosity::quiet) {
-    progress_.say("waiting for " + std::to_string(waiting.size()) +
+  if (!waiting_.empty() && options_.verbosity != Verbosity::quiet) {
+    progress_.say("waiting for " + std::to_string(waiting_.size()) +
                   " images in the hands of other processes");
   }
-  while (!waiting.empty()) {
-    std::vector<const PlannedImage*> still;
-    for (const PlannedImage* image : waiting) {
-      const Outcome outcome = stop_requested() ? Outcome::stopped : take(*image);
-      if (outcome == Outcome::stopped || outcome == Outcome::file_trouble) return outcome;
-      if (outcome == Outcome::claimed_by_another) still.push_back(image);
-      if (outcome == Outcome::failed) all_made = false;
-    }
-    waiting = std::move(still);
-    for (int i = 0; i < 10 && !waiting.empty() && !stop_requested(); ++i)
+  while (!waiting_.empty()) {
+    const Outcome outcome = take_all(std::exchange(waiting_, {}));
+    if (outcome == Outcome::stopped || outcome == Outcome::file_trouble) return outcome;
+    if (outcome == Outcome::failed) all_made = false;
+    for (int i = 0; i < 10 && !waiting_.empty() && !stop_requested(); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   return all_made ? Outcome::made : Outcome::failed;
@@ -160,14 +158,14 @@ RenderRun::Outcome RenderRun::take(const PlannedImage& image) {
     }
     return skip(image, "is complete");
   }
-  if (!options_.claim) return make_or_explain(image, nullptr);
+  if (!options_.claim) return begin(image, nullptr);
   auto attempt = Claim::attempt(claim_path(image), options_.claim_expiry);
   if (!attempt.ok()) return trouble(attempt.error());
   std::unique_ptr<Claim> claim = std::move(attempt.value().claim);
   if (!claim) return Outcome::claimed_by_another;
   // It may have been finished by another between the look at it and the claim.
   if (recogniser_.is_complete(image)) return skip(image, "is complete");
-  return make_or_explain(image, std::move(claim));
+  return begin(image, std::move(claim));
 }
 
 // The partial image of a finished one, but not of another that has the same name.
@@ -200,16 +198,15 @@ RenderRun::Outcome RenderRun::trouble(const std::string& what) {
   return Outcome::file_trouble;
 }
 
-RenderRun::Outcome RenderRun::make_or_explain(const PlannedImage& image, std::unique_ptr<Claim> claim) {
-  std::optional<Scene> scene = std::exchange(first_, std::nullopt);
-  if (!scene) scene = session_.compile(image.request);
-  if (!scene) return Outcome::failed;
+// What goes wrong with one image is told, and the others are made.
+template <class Step>
+RenderRun::Outcome RenderRun::explained(const PlannedImage& image, const FilmSettings& film,
+                                        const Step& step) {
   std::string what;
   std::optional<PixelBox> crop = options_.crop;
   try {
-    return make(*scene, image, std::move(claim));
+    return step();
   } catch (const std::bad_alloc&) {
-    const FilmSettings& film = scene->film;
     what = "not enough memory for an image of " + std::to_string(film.width) + "x" +
            std::to_string(film.height) + " pixels; render it in parts with --crop";
   } catch (const PixelFailure& failure) {
@@ -223,35 +220,56 @@ RenderRun::Outcome RenderRun::make_or_explain(const PlannedImage& image, std::un
   return Outcome::failed;
 }
 
-RenderRun::Outcome RenderRun::make(const Scene& scene, const PlannedImage& image,
-                                   std::unique_ptr<Claim> claim) {
-  Needs needs = needs_within_tolerance(scene);
-  const RenderSettings settings = settings_for(options_, scene, needs);
+RenderRun::Outcome RenderRun::begin(const PlannedImage& image, std::unique_ptr<Claim> claim) {
+  std::optional<Scene> scene = std::exchange(first_, std::nullopt);
+  if (!scene) scene = session_.compile(image.request);
+  if (!scene) return Outcome::failed;
+  const auto work = std::make_shared<Work>(image, *std::move(scene));
+  work->claim = std::move(claim);
+  const Outcome outcome = explained(image, work->scene.film, [&] { return start(*work); });
+  if (outcome == Outcome::begun) in_hand_.push_back(work);
+  return outcome;
+}
+
+RenderRun::Outcome RenderRun::start(Work& work) {
+  work.needs = needs_within_tolerance(work.scene);
+  work.settings = settings_for(options_, work.scene, work.needs);
   const auto creation_time = source_date_epoch();
   if (!creation_time.ok()) return trouble(creation_time.error());
-  const ExrHeader header =
-      image_header(scene, settings.wavelengths, recogniser_.origin(image), creation_time.value());
-  PartialImage partial = begin_image(scene, settings);
-  if (options_.resume) resume(image, partial);
-  RenderStatistics statistics;
+  work.header = image_header(work.scene, work.settings.wavelengths, recogniser_.origin(*work.image),
+                             creation_time.value());
+  work.partial = begin_image(work.scene, work.settings);
+  if (options_.resume) resume(*work.image, work.partial);
+  progress_.begin_image(work.image->exr.string(), tile_count(work.scene, work.settings));
+  work.tracing =
+      std::make_unique<ImageTracing>(work.scene, work.settings, work.partial, pause_requested(), &progress_);
+  threads_->begin(*work.tracing);
+  return Outcome::begun;
+}
+
+RenderRun::Outcome RenderRun::finish(const std::shared_ptr<Work>& work) {
   while (true) {
-    progress_.begin_image(image.exr.string(), tile_count(scene, settings));
-    add(statistics, render_missing(scene, settings, partial, pause_requested(), &progress_));
-    if (partial.is_complete()) {
-      take_snapshot_request();  // the image itself is at hand
+    work->statistics.seconds += threads_->finish();
+    if (work->partial.is_complete()) {
+      // The image itself is at hand; where there is another behind it, the snapshot is of that.
+      if (in_hand_.size() == 1) take_snapshot_request();
       break;
     }
-    if (take_snapshot_request() && !stop_requested()) snapshot(image, partial, header);
-    if (stop_requested()) return stop(image, partial, header);
+    if (take_snapshot_request() && !stop_requested()) snapshot(*work);
+    if (stop_requested()) return stop(*work);
+    progress_.restart_images();
+    threads_->go_on_with(*work->tracing);
   }
-  if (claim != nullptr && !claim->is_held()) {
-    progress_.say("backlight: warning: " + image.exr.string() +
+  const double seconds = last_seconds_ = work->statistics.seconds;
+  work->statistics = work->tracing->statistics();
+  work->statistics.seconds = seconds;
+  work->tracing.reset();
+  if (work->claim != nullptr && !work->claim->is_held()) {
+    progress_.say("backlight: warning: " + work->image->exr.string() +
                   ": another process took the claim over, which had expired; it will write the image");
     return Outcome::claimed_by_another;
   }
-  return deliver(
-      scene, settings,
-      {&image, std::move(partial), header, std::move(claim), std::move(needs), statistics, {}, {}, {}});
+  return deliver(work);
 }
 
 void RenderRun::resume(const PlannedImage& image, PartialImage& partial) {
@@ -266,9 +284,9 @@ void RenderRun::resume(const PlannedImage& image, PartialImage& partial) {
   }
 }
 
-void RenderRun::snapshot(const PlannedImage& image, const PartialImage& partial, const ExrHeader& header) {
-  const std::filesystem::path path = partial_path(image.exr);
-  const auto written = write_partial(path, partial, header);
+void RenderRun::snapshot(const Work& work) {
+  const std::filesystem::path path = partial_path(work.image->exr);
+  const auto written = write_partial(path, work.partial, work.header);
   if (!written.ok()) {
     progress_.say("backlight: warning: " + written.error());  // the image itself may yet find its place
   } else if (options_.verbosity != Verbosity::quiet) {
@@ -276,10 +294,11 @@ void RenderRun::snapshot(const PlannedImage& image, const PartialImage& partial,
   }
 }
 
-RenderRun::Outcome RenderRun::stop(const PlannedImage& image, const PartialImage& partial,
-                                   const ExrHeader& header) {
-  const std::filesystem::path path = partial_path(image.exr);
-  if (const auto written = write_partial(path, partial, header); !written.ok())
+RenderRun::Outcome RenderRun::stop(const Work& work) {
+  const bool behind_another = std::exchange(has_stopped_, true);
+  if (behind_another && !work.partial.has_any()) return Outcome::stopped;
+  const std::filesystem::path path = partial_path(work.image->exr);
+  if (const auto written = write_partial(path, work.partial, work.header); !written.ok())
     return trouble(written.error());
   if (options_.verbosity != Verbosity::quiet) {
     progress_.say("stopped; wrote " + path.string() + ", which --resume finishes");
@@ -287,41 +306,38 @@ RenderRun::Outcome RenderRun::stop(const PlannedImage& image, const PartialImage
   return Outcome::stopped;
 }
 
-RenderRun::Outcome RenderRun::deliver(const Scene& scene, const RenderSettings& settings, Delivery traced) {
-  const auto delivery = std::make_shared<Delivery>(std::move(traced));
-  const Image& image = delivery->partial.image;
-  const std::filesystem::path& file = delivery->image->exr;
-  delivery->faults = faults_of(image);
-  delivery->record =
-      statistics_json(scene, delivery->needs, settings, delivery->statistics, delivery->faults, file);
-  delivery->details = details(scene, settings, delivery->statistics);
+RenderRun::Outcome RenderRun::deliver(const std::shared_ptr<Work>& work) {
+  const Image& image = work->partial.image;
   const std::size_t bytes = image.channel_count() * image.plane(0).size_bytes();
   deliveries_.add(
-      bytes, [this, delivery] { return store(*delivery); },
-      [this, delivery](const Result<void>& stored) { return conclude(*delivery, stored); });
-  if (delivery->image == &images_.back()) deliveries_.wait();  // the end that progress tells is the end
+      bytes, [this, work] { return store(*work); },
+      [this, work](const Result<void>& stored) { return conclude(*work, stored); });
+  if (work->image == &images_.back()) deliveries_.wait();  // the end that progress tells is the end
   progress_.end_image();
   return deliveries_.has_failed() ? Outcome::file_trouble : Outcome::made;
 }
 
-Result<void> RenderRun::store(const Delivery& delivery) const {
-  const PlannedImage& image = *delivery.image;
+Result<void> RenderRun::store(Work& work) const {
+  const PlannedImage& image = *work.image;
+  work.faults = faults_of(work.partial.image);
   std::error_code ignored;
   // The PNG of an earlier image must not stand beside this one, should the process end between the two.
   if (!image.png.empty()) std::filesystem::remove(image.png, ignored);
-  const auto written = write_exr(image.exr, delivery.partial.image, delivery.header, options_.storage);
+  const auto written = write_exr(image.exr, work.partial.image, work.header, options_.storage);
   return written.ok() ? complete_png(image) : written;
 }
 
-Result<void> RenderRun::conclude(Delivery& delivery, const Result<void>& stored) {
-  const Result<void> done = stored.ok() ? statistics_.write(delivery.record) : stored;
+Result<void> RenderRun::conclude(Work& work, const Result<void>& stored) {
+  work.record =
+      statistics_json(work.scene, work.needs, work.settings, work.statistics, work.faults, work.image->exr);
+  const Result<void> done = stored.ok() ? statistics_.write(work.record) : stored;
   if (done.ok()) {
-    remove_superseded(*delivery.image);
-    tell(delivery);
+    remove_superseded(*work.image);
+    tell(work);
   } else {
     trouble(done.error());
   }
-  delivery.claim.reset();
+  work.claim.reset();
   return done;
 }
 
@@ -336,10 +352,10 @@ Result<void> RenderRun::complete_png(const PlannedImage& image) const {
   return write_png(image.png, displayed.value().pixels);
 }
 
-void RenderRun::tell(const Delivery& delivery) {
-  const PlannedImage& planned = *delivery.image;
-  const RenderStatistics& statistics = delivery.statistics;
-  const ImageFaults& faults = delivery.faults;
+void RenderRun::tell(const Work& work) {
+  const PlannedImage& planned = *work.image;
+  const RenderStatistics& statistics = work.statistics;
+  const ImageFaults& faults = work.faults;
   const std::string file = planned.exr.string();
   if (statistics.samples.at_limit > 0) {
     progress_.say("backlight: warning: " + file + ": " + std::to_string(statistics.samples.at_limit) +
@@ -359,13 +375,25 @@ void RenderRun::tell(const Delivery& delivery) {
   }
   if (options_.verbosity == Verbosity::quiet) return;
   if (progress_.style() == ProgressStyle::json) {
-    progress_.say(R"({"event":"image",)" + delivery.record.substr(1));
+    progress_.say(R"({"event":"image",)" + work.record.substr(1));
     return;
   }
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f s", statistics.seconds);
   progress_.say(file + "  " + seconds);
-  if (options_.verbosity == Verbosity::verbose) progress_.say(delivery.details);
+  if (options_.verbosity == Verbosity::verbose)
+    progress_.say(statistics_words(work.scene, work.settings, statistics));
+}
+
+// Whether the threads always had something to do.
+void RenderRun::tell_time() {
+  const TracingTime time = threads_->time();
+  if (options_.verbosity == Verbosity::quiet || !(time.seconds > 0.0)) return;
+  if (progress_.style() == ProgressStyle::json) {
+    progress_.say(time_json(time));
+  } else if (options_.verbosity == Verbosity::verbose) {
+    progress_.say(time_words(time));
+  }
 }
 
 }  // namespace backlight

@@ -1,9 +1,11 @@
 // The images of one run of `backlight render`, one after the other.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "backlight/base/claim.h"
@@ -11,34 +13,14 @@
 #include "backlight/render/image_header.h"
 #include "backlight/render/progress.h"
 #include "backlight/render/render.h"
+#include "backlight/render/tracing_threads.h"
 #include "delivery_queue.h"
+#include "image_recogniser.h"
 #include "render_plan.h"
 #include "scene_session.h"
 #include "statistics.h"
 
 namespace backlight {
-
-/// Recognises the files of earlier runs, and of other processes.
-class ImageRecogniser {
- public:
-  /// The session has compiled its scene. Fails if a file that the scene names cannot be read any more.
-  static Result<ImageRecogniser> of(const RenderOptions& options, SceneSession& session);
-
-  /// The identity of an image; empty when its numbers are wrong, which compiling it reports.
-  [[nodiscard]] std::string identity(const PlannedImage& image) const;
-  /// What its header says of its origin.
-  [[nodiscard]] ImageOrigin origin(const PlannedImage& image) const;
-  /// Whether its file is there, complete and the same.
-  [[nodiscard]] bool is_complete(const PlannedImage& image) const;
-
- private:
-  ImageRecogniser(const RenderOptions& options, const Description& description,
-                  std::vector<std::string> digests);
-
-  const RenderOptions* options_;
-  const Description* description_;
-  std::vector<std::string> digests_;
-};
 
 class RenderRun {
  public:
@@ -49,39 +31,51 @@ class RenderRun {
   int run(Scene first);
 
  private:
-  enum class Outcome { made, skipped, claimed_by_another, failed, file_trouble, stopped };
+  // In the order of what the run comes to.
+  enum class Outcome { begun, made, skipped, claimed_by_another, failed, file_trouble, stopped };
 
-  /// A traced image, with what there is to say of it.
-  struct Delivery {
-    const PlannedImage* image = nullptr;
+  /// An image from its compiled scene to its file.
+  struct Work {
+    Work(const PlannedImage& the_image, Scene the_scene) : image(&the_image), scene(std::move(the_scene)) {}
+
+    const PlannedImage* image;
+    Scene scene;
+    Needs needs;
+    RenderSettings settings;
     PartialImage partial;
+    std::unique_ptr<ImageTracing> tracing;  ///< while it is in the hands of the threads
     ExrHeader header;
     std::unique_ptr<Claim> claim;  ///< null: without
-    Needs needs;
     RenderStatistics statistics;
     ImageFaults faults;
-    std::string record;   ///< the object of --stats
-    std::string details;  ///< for --verbose
+    std::string record;  ///< the object of --stats
   };
 
-  Outcome take_all(std::vector<const PlannedImage*>& waiting);
+  Outcome take_all(const std::vector<const PlannedImage*>& images);
+  Outcome make_room();
+  Outcome finish_first();
+  Outcome finish_all();
   Outcome take(const PlannedImage& image);
-  Outcome wait_for_others(std::vector<const PlannedImage*> waiting);
-  Outcome make_or_explain(const PlannedImage& image, std::unique_ptr<Claim> claim);
-  Outcome make(const Scene& scene, const PlannedImage& image, std::unique_ptr<Claim> claim);
-  Outcome stop(const PlannedImage& image, const PartialImage& partial, const ExrHeader& header);
+  Outcome wait_for_others();
+  template <class Step>
+  Outcome explained(const PlannedImage& image, const FilmSettings& film, const Step& step);
+  Outcome begin(const PlannedImage& image, std::unique_ptr<Claim> claim);
+  Outcome start(Work& work);
+  Outcome finish(const std::shared_ptr<Work>& work);
+  Outcome stop(const Work& work);
   /// Sends the image on its way; store() and conclude() follow on a thread of their own.
-  Outcome deliver(const Scene& scene, const RenderSettings& settings, Delivery traced);
-  [[nodiscard]] Result<void> store(const Delivery& delivery) const;
-  Result<void> conclude(Delivery& delivery, const Result<void>& stored);
+  Outcome deliver(const std::shared_ptr<Work>& work);
+  [[nodiscard]] Result<void> store(Work& work) const;
+  Result<void> conclude(Work& work, const Result<void>& stored);
   Outcome skip(const PlannedImage& image, const std::string& why);
   Outcome trouble(const std::string& what);
 
   Result<void> complete_png(const PlannedImage& image) const;
   void remove_superseded(const PlannedImage& image) const;
   void resume(const PlannedImage& image, PartialImage& partial);
-  void snapshot(const PlannedImage& image, const PartialImage& partial, const ExrHeader& header);
-  void tell(const Delivery& delivery);
+  void snapshot(const Work& work);
+  void tell(const Work& work);
+  void tell_time();
 
   const RenderOptions& options_;
   SceneSession& session_;
@@ -90,7 +84,12 @@ class RenderRun {
   StatisticsFile statistics_;
   ProgressReporter progress_;
   std::optional<Scene> first_;
-  DeliveryQueue deliveries_;  // last: what is on its way uses the others
+  bool has_stopped_ = false;
+  double last_seconds_ = 1.0;                  // that the image before took
+  std::vector<const PlannedImage*> waiting_;   // in the hands of other processes
+  std::deque<std::shared_ptr<Work>> in_hand_;  // being traced, or begun behind those
+  std::optional<TracingThreads> threads_;      // behind what they trace
+  DeliveryQueue deliveries_;                   // last: what is on its way uses the others
 };
 
 }  // namespace backlight

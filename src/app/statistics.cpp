@@ -1,6 +1,7 @@
 #include "statistics.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -57,6 +58,7 @@ std::string statistics_json(const Scene& scene, const Needs& needs, const Render
   object.text("rays", statistics.strategy.rays).text("cameraCulling", in_words(statistics.strategy.camera));
   object.json("shadowCulling", shadows_json(statistics.strategy));
   object.number("threads", statistics.threads).number("seconds", statistics.seconds);
+  object.number("threadSeconds", statistics.thread_seconds);
   object.count("cameraRays", statistics.rays.primary).count("shadowRays", statistics.rays.shadow);
   object.count("dataRays", statistics.rays.data);
   object.count("nonFinitePixels", faults.non_finite).count("beyondHalfPixels", faults.beyond_half);
@@ -67,6 +69,32 @@ std::string statistics_json(const Scene& scene, const Needs& needs, const Render
   object.count("rootsSolved", statistics.rays.roots);
   object.count("unresolvedHits", statistics.rays.unresolved);
   return object.str();
+}
+
+std::string statistics_words(const Scene& scene, const RenderSettings& settings,
+                             const RenderStatistics& statistics) {
+  const std::string colour = settings.wavelengths > 0 ? std::to_string(settings.wavelengths) + " wavelengths"
+                                                      : "red, green and blue";
+  return "  t = " + json_number(scene.time) + " s, " + json_number(statistics.samples.mean()) +
+         " samples a pixel, " + colour + ", " + std::to_string(statistics.rays.primary) + " camera rays, " +
+         std::to_string(statistics.rays.shadow) + " shadow rays, " + std::to_string(statistics.threads) +
+         " threads";
+}
+
+std::string time_json(const TracingTime& time) {
+  JsonObject object;
+  object.text("event", "end").number("seconds", time.seconds).number("threads", time.threads);
+  return object.number("threadSeconds", time.traced).number("lost", time.lost()).str();
+}
+
+std::string time_words(const TracingTime& time) {
+  char text[160];
+  std::snprintf(
+      text, sizeof text, "%.2f s from the first tile to the last; %s had no tile for %.1f %% of the time",
+      time.seconds,
+      time.threads == 1 ? "the thread" : ("each of " + std::to_string(time.threads) + " threads").c_str(),
+      100.0 * time.lost());
+  return text;
 }
 
 Result<StatisticsFile> StatisticsFile::open(const std::filesystem::path& path, bool append) {

@@ -8,6 +8,7 @@
 #include "backlight/base/result.h"
 #include "backlight/render/image_faults.h"
 #include "backlight/render/render.h"
+#include "backlight/render/tracing_threads.h"
 #include "backlight/scene/needs.h"
 
 namespace backlight {
@@ -16,6 +17,14 @@ namespace backlight {
 std::string statistics_json(const Scene& scene, const Needs& needs, const RenderSettings& settings,
                             const RenderStatistics& statistics, const ImageFaults& faults,
                             const std::filesystem::path& file);
+
+/// For --verbose: the same in a line of words, indented.
+std::string statistics_words(const Scene& scene, const RenderSettings& settings,
+                             const RenderStatistics& statistics);
+
+/// How well the tracing threads were kept busy: {"event":"end",...}, and a line of words.
+std::string time_json(const TracingTime& time);
+std::string time_words(const TracingTime& time);
 
 /// The file of --stats: each line is whole on the disk before the next image begins.
 class StatisticsFile {

@@ -1,5 +1,6 @@
 #include "backlight/base/thread_pool.h"
 
+#include <pthread.h>
 #include <sched.h>
 
 #include <algorithm>
@@ -62,6 +63,11 @@ bool run_on_threads(std::size_t count, int threads, const std::atomic<bool>& sto
   }
   if (failure) std::rethrow_exception(failure);
   return done.load() == count && !stop.load();
+}
+
+void serve_in_background() {
+  const sched_param parameters{};
+  pthread_setschedparam(pthread_self(), SCHED_BATCH, &parameters);
 }
 
 int usable_threads() {

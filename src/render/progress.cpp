@@ -63,7 +63,7 @@ bool colour_wanted() {
 
 double ProgressState::fraction() const {
   if (images <= 0) return 1.0;
-  return std::clamp((images_done + std::clamp(image_part, 0.0, 1.0)) / images, 0.0, 1.0);
+  return std::clamp((images_done + std::clamp(image_part, 0.0, 2.0)) / images, 0.0, 1.0);
 }
 
 double ProgressState::remaining() const {
@@ -135,18 +135,30 @@ ProgressReporter::~ProgressReporter() {
 
 void ProgressReporter::begin_image(std::string_view file, std::uint64_t units) {
   const std::lock_guard lock(guard_);
-  file_ = file;
-  units_done_.store(0, std::memory_order_relaxed);
-  units_.store(units, std::memory_order_relaxed);
+  if (in_hand_.empty()) units_done_.store(0, std::memory_order_relaxed);
+  in_hand_.push_back({std::string(file), units});
 }
 
 void ProgressReporter::end_image() {
   const std::lock_guard lock(guard_);
   ++images_done_;
-  units_.store(0, std::memory_order_relaxed);
-  units_done_.store(0, std::memory_order_relaxed);
+  forget_first();
   const bool tells_the_end = style_ == ProgressStyle::lines || style_ == ProgressStyle::json;
   if (tells_the_end && images_done_ == images_) report();
+}
+
+void ProgressReporter::drop_image() {
+  const std::lock_guard lock(guard_);
+  forget_first();
+}
+
+// With the lock held. Tiles of the next image may be done already.
+void ProgressReporter::forget_first() {
+  if (in_hand_.empty()) return;
+  const std::uint64_t units = std::min(in_hand_.front().units, units_done_.load(std::memory_order_relaxed));
+  units_done_.fetch_sub(units, std::memory_order_relaxed);
+  last_file_ = std::move(in_hand_.front().file);
+  in_hand_.pop_front();
 }
 
 void ProgressReporter::skip_image() {
@@ -161,10 +173,13 @@ void ProgressReporter::say(std::string_view line) {
 }
 
 ProgressState ProgressReporter::state() const {
-  const auto units = static_cast<double>(units_.load(std::memory_order_relaxed));
+  std::uint64_t units = 0;
+  for (const ImageInHand& image : in_hand_) units += image.units;
   const auto done = static_cast<double>(units_done_.load(std::memory_order_relaxed));
+  const double part = units > 0 ? std::min(done / static_cast<double>(units), 1.0) : 0.0;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  return {file_, images_, images_done_, units > 0.0 ? done / units : 0.0, elapsed.count()};
+  return {in_hand_.empty() ? last_file_ : in_hand_.front().file, images_, images_done_,
+          part * static_cast<double>(in_hand_.size()), elapsed.count()};
 }
 
 void ProgressReporter::report_until_stopped(std::stop_token stop) {

@@ -43,6 +43,10 @@ struct TileGrid {
   }
 };
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 std::vector<ViewRenderer> views_of(const Tracer& tracer, const SheetTracer* sheets,
                                    const RenderSettings& settings, PartialImage& partial) {
   std::vector<ViewRenderer> views;
@@ -60,46 +64,16 @@ RenderStatistics summed(const std::vector<ThreadMemory>& memories) {
   for (const ThreadMemory& memory : memories) {
     statistics.rays += memory.scratch.counts;
     statistics.samples += memory.samples;
+    statistics.thread_seconds += memory.seconds;
   }
   return statistics;
 }
 
 }  // namespace
 
-void SampleCounts::add(int samples, bool is_at_limit) {
-  const auto count = static_cast<std::uint64_t>(samples);
-  least = pixels == 0 ? count : std::min(least, count);
-  most = std::max(most, count);
-  ++pixels;
-  total += count;
-  at_limit += is_at_limit ? 1 : 0;
-}
-
-SampleCounts& SampleCounts::operator+=(const SampleCounts& other) {
-  if (other.pixels == 0) return *this;
-  least = pixels == 0 ? other.least : std::min(least, other.least);
-  most = std::max(most, other.most);
-  pixels += other.pixels;
-  total += other.total;
-  at_limit += other.at_limit;
-  return *this;
-}
-
 std::size_t tile_count(const Scene& scene, const RenderSettings& settings) {
   return TileGrid(scene, settings).count();
 }
-
-bool PartialImage::is_complete() const {
-  const auto all = [](const std::vector<std::uint8_t>& plane) {
-    return std::ranges::all_of(plane, [](std::uint8_t is_done) { return is_done != 0; });
-  };
-  return std::ranges::all_of(done, all);
-}
-
-PixelFailure::PixelFailure(int at_x, int at_y, const std::string& why)
-    : std::runtime_error("pixel " + std::to_string(at_x) + "," + std::to_string(at_y) + ": " + why),
-      x(at_x),
-      y(at_y) {}
 
 PartialImage begin_image(const Scene& scene, const RenderSettings& settings) {
   PartialImage partial{Image(layout_of(scene, data_window(scene, settings))), {}};
@@ -108,32 +82,67 @@ PartialImage begin_image(const Scene& scene, const RenderSettings& settings) {
   return partial;
 }
 
+struct ImageTracing::Parts {
+  Parts(const Scene& scene, const RenderSettings& the_settings, PartialImage& partial,
+        const std::atomic<bool>& the_stop, ProgressReporter* the_progress)
+      : settings(the_settings),
+        stop(the_stop),
+        progress(the_progress),
+        grid(scene, settings),
+        tracer(scene, settings.wavelengths) {
+    if (settings.path == RayPath::sheets && SheetTracer::can_trace(scene)) {
+      sheets.emplace(tracer, settings.instructions);
+    }
+    const SheetTracer* in_use = sheets ? &*sheets : nullptr;
+    views = views_of(tracer, in_use, settings, partial);
+    for (int i = 0; i < std::max(1, settings.threads); ++i) memories.emplace_back(tracer, in_use);
+  }
+
+  const RenderSettings settings;
+  const std::atomic<bool>& stop;
+  ProgressReporter* progress;
+  TileGrid grid;
+  Tracer tracer;
+  std::optional<SheetTracer> sheets;
+  std::vector<ViewRenderer> views;
+  std::vector<ThreadMemory> memories;
+};
+
+ImageTracing::ImageTracing(const Scene& scene, const RenderSettings& settings, PartialImage& partial,
+                           const std::atomic<bool>& stop, ProgressReporter* progress)
+    : parts_(std::make_unique<Parts>(scene, settings, partial, stop, progress)) {}
+
+ImageTracing::~ImageTracing() = default;
+
+std::size_t ImageTracing::tile_count() const {
+  return parts_->grid.count();
+}
+
+void ImageTracing::tile(std::size_t index, int thread) {
+  const auto start = std::chrono::steady_clock::now();
+  ThreadMemory& memory = parts_->memories[static_cast<std::size_t>(thread)];
+  const std::uint64_t roots_before = roots_solved_by_this_thread();
+  for (ViewRenderer& view : parts_->views) view.tile(parts_->grid.tile(index), parts_->stop, memory);
+  memory.scratch.counts.roots += roots_solved_by_this_thread() - roots_before;
+  memory.seconds += seconds_since(start);
+  if (parts_->progress != nullptr) parts_->progress->advance();
+}
+
+RenderStatistics ImageTracing::statistics() const {
+  RenderStatistics statistics = summed(parts_->memories);
+  statistics.strategy = parts_->sheets ? parts_->sheets->strategy() : parts_->tracer.strategy();
+  statistics.threads = parts_->settings.threads;
+  return statistics;
+}
+
 RenderStatistics render_missing(const Scene& scene, const RenderSettings& settings, PartialImage& partial,
                                 const std::atomic<bool>& stop, ProgressReporter* progress) {
   const auto start = std::chrono::steady_clock::now();
-  const TileGrid grid(scene, settings);
-  const Tracer tracer(scene, settings.wavelengths);
-  std::optional<SheetTracer> sheets;
-  if (settings.path == RayPath::sheets && SheetTracer::can_trace(scene)) {
-    sheets.emplace(tracer, settings.instructions);
-  }
-  const SheetTracer* in_use = sheets ? &*sheets : nullptr;
-  std::vector<ViewRenderer> views = views_of(tracer, in_use, settings, partial);
-  std::vector<ThreadMemory> memories;
-  for (int i = 0; i < std::max(1, settings.threads); ++i) memories.emplace_back(tracer, in_use);
-
-  run_on_threads(grid.count(), settings.threads, stop, [&](std::size_t index, int thread) {
-    ThreadMemory& memory = memories[static_cast<std::size_t>(thread)];
-    const std::uint64_t roots_before = roots_solved_by_this_thread();
-    for (ViewRenderer& view : views) view.tile(grid.tile(index), stop, memory);
-    memory.scratch.counts.roots += roots_solved_by_this_thread() - roots_before;
-    if (progress != nullptr) progress->advance();
-  });
-
-  RenderStatistics statistics = summed(memories);
-  statistics.strategy = sheets ? sheets->strategy() : tracer.strategy();
-  statistics.threads = settings.threads;
-  statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  ImageTracing tracing(scene, settings, partial, stop, progress);
+  run_on_threads(tracing.tile_count(), settings.threads, stop,
+                 [&](std::size_t index, int thread) { tracing.tile(index, thread); });
+  RenderStatistics statistics = tracing.statistics();
+  statistics.seconds = seconds_since(start);
   return statistics;
 }
 

@@ -35,6 +35,7 @@ struct ThreadMemory {
   std::vector<int> covered;
   std::optional<AdaptiveSampler> sampler;  // where the number of samples is chosen
   SampleCounts samples;
+  double seconds = 0.0;  // in tiles
 };
 
 // The pixels of one view: what a tile task needs.

@@ -21,4 +21,9 @@ bool run_on_threads(std::size_t count, int threads, const std::atomic<bool>& sto
 /// batch systems and containers narrow), and no more than SLURM_CPUS_PER_TASK where that is set. At least 1.
 int usable_threads();
 
+/// From now on the calling thread, and those that it begins, do not push others off their CPU when they are
+/// woken: they wait for one that is free, or for their turn. For those that serve threads which compute.
+/// Where the system does not allow it, nothing changes.
+void serve_in_background();
+
 }  // namespace backlight

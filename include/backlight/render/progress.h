@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <iosfwd>
 #include <mutex>
 #include <string>
@@ -18,10 +19,10 @@ enum class ProgressStyle { automatic, bar, lines, json, none };
 
 /// A moment of a run over one or more images.
 struct ProgressState {
-  std::string file;  ///< of the image in hand
+  std::string file;  ///< of the first image in hand
   int images = 1;    ///< in the whole run
   int images_done = 0;
-  double image_part = 0.0;  ///< 0 ... 1: how much of the image in hand is done
+  double image_part = 0.0;  ///< 0 ... 1: how much of the image in hand is done; up to 2, of two in hand
   double elapsed = 0.0;     ///< seconds since the run began
 
   [[nodiscard]] double fraction() const;  ///< of the whole run, 0 ... 1
@@ -53,12 +54,17 @@ class ProgressReporter {
   ProgressReporter(const ProgressReporter&) = delete;
   ProgressReporter& operator=(const ProgressReporter&) = delete;
 
-  /// The next image, of `units` pieces of equal work (tiles, or pixels).
+  /// One more image in hand, of `units` pieces of equal work (tiles, or pixels).
   void begin_image(std::string_view file, std::uint64_t units);
+  /// What was traced of the images in hand is gone through again.
+  void restart_images() { units_done_.store(0, std::memory_order_relaxed); }
   /// From any thread: some of them are done.
   void advance(std::uint64_t units = 1) { units_done_.fetch_add(units, std::memory_order_relaxed); }
-  /// The image is done. Lines and json report the end of the run at once.
+  /// The first of the images in hand is done. Lines and json report the end of the run at once.
   void end_image();
+
+  /// The first of the images in hand will not be done: it failed, or was put aside.
+  void drop_image();
 
   /// One image less to make than was thought: the time that is left is guessed from those that are made.
   void skip_image();
@@ -72,6 +78,7 @@ class ProgressReporter {
   void report_until_stopped(std::stop_token stop);
   void report();  // with the lock held
   void clear_bar();
+  void forget_first();
   [[nodiscard]] ProgressState state() const;
 
   std::ostream& out_;
@@ -81,12 +88,16 @@ class ProgressReporter {
   std::chrono::milliseconds interval_;
   std::chrono::steady_clock::time_point start_;
 
-  mutable std::mutex guard_;  // of the stream, and of the three below
-  std::string file_;
+  mutable std::mutex guard_;  // of the stream, and of the four below
+  struct ImageInHand {
+    std::string file;
+    std::uint64_t units;
+  };
+  std::deque<ImageInHand> in_hand_;
+  std::string last_file_;
   int images_;
   int images_done_ = 0;
 
-  std::atomic<std::uint64_t> units_{0};
   std::atomic<std::uint64_t> units_done_{0};
   std::condition_variable_any wake_;
   std::jthread thread_;  // last: it uses all the others

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -48,7 +49,8 @@ struct RenderStatistics {
   RayCounts rays;
   SampleCounts samples;
   TraceStrategy strategy;
-  double seconds = 0.0;  ///< wall time, tracing only
+  double seconds = 0.0;         ///< wall time from its first tile's begin to its last tile's end
+  double thread_seconds = 0.0;  ///< time that threads spent in its tiles
   int threads = 1;
 };
 
@@ -65,6 +67,8 @@ struct PartialImage {
   std::vector<std::vector<std::uint8_t>> done;
 
   [[nodiscard]] bool is_complete() const;
+  /// Whether any pixel is final.
+  [[nodiscard]] bool has_any() const;
 };
 
 /// Number of tiles the image is cut into: the units that `progress` is advanced by.
@@ -81,6 +85,30 @@ PartialImage begin_image(const Scene& scene, const RenderSettings& settings);
 /// An exception from a pixel leaves as a PixelFailure.
 RenderStatistics render_missing(const Scene& scene, const RenderSettings& settings, PartialImage& partial,
                                 const std::atomic<bool>& stop, ProgressReporter* progress);
+
+/// An image in the hands of threads, tile by tile: what render_missing() does, for one who has the threads.
+class ImageTracing {
+ public:
+  /// Everything given must outlive this.
+  ImageTracing(const Scene& scene, const RenderSettings& settings, PartialImage& partial,
+               const std::atomic<bool>& stop, ProgressReporter* progress);
+  ~ImageTracing();
+  ImageTracing(const ImageTracing&) = delete;
+  ImageTracing& operator=(const ImageTracing&) = delete;
+
+  [[nodiscard]] std::size_t tile_count() const;
+
+  /// Traces what is missing of a tile, in any order, on thread 0 ... settings.threads - 1, each of which is
+  /// in one tile at a time. Throws as render_missing() does.
+  void tile(std::size_t index, int thread);
+
+  /// Of all tiles so far; none may be in hand. `seconds` is for the caller to fill in.
+  [[nodiscard]] RenderStatistics statistics() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 /// A pixel could not be traced: what() says which, and why.
 class PixelFailure : public std::runtime_error {
