@@ -5,15 +5,6 @@
 
 namespace backlight {
 
-void SampleCounts::add(int samples, bool is_at_limit) {
-  const auto count = static_cast<std::uint64_t>(samples);
-  least = pixels == 0 ? count : std::min(least, count);
-  most = std::max(most, count);
-  ++pixels;
-  total += count;
-  at_limit += is_at_limit ? 1 : 0;
-}
-
 SampleCounts& SampleCounts::operator+=(const SampleCounts& other) {
   if (other.pixels == 0) return *this;
   least = pixels == 0 ? other.least : std::min(least, other.least);

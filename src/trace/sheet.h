@@ -92,6 +92,7 @@ struct LampTable {
   double* speed = nullptr;  ///< |w|
   double* place[3]{};       ///< x₀: the light relative to the occluder's centre, axes turned to the light's
   double* radius = nullptr;
+  double* core = nullptr;  ///< of a ball all of which is opaque: it surely shades; <= 0: none
   int* who = nullptr;
 };
 
@@ -172,8 +173,8 @@ struct LaneOccluder {
   const LaneMotion* from_light = nullptr;
   const LaneSurface* surface = nullptr;
   double frame_index = 0;
-  LaneCone cone;     ///< on the light's sky
-  double end = 1.0;  ///< of the segment to the light
+  std::uint64_t candidates = 0;  ///< the points that it may shade, one bit each
+  double end = 1.0;              ///< of the segment to the light
 };
 
 struct LaneReflection {
@@ -195,8 +196,8 @@ struct SheetKernels {
   Bundle (*bundle)(const SheetRays& rays);
   /// Copies the cones that the bundle may meet; `to` has room for all.
   void (*overlapping)(const ConeTable& from, const Bundle& bundle, ConeTable& to);
-  /// The same of the occluders on the light's sky; the cones go to `cones` if it is not null.
-  void (*overlapping_lamps)(const LampTable& from, const Bundle& bundle, LampTable& to, LaneCone* cones);
+  /// The same of the occluders on the light's sky.
+  void (*overlapping_lamps)(const LampTable& from, const Bundle& bundle, LampTable& to);
   /// Widens the bundle of light that reaches what the rays have hit: with `axis` null only the sums for the
   /// axis, of some of the rays.
   void (*gather)(const LaneLamp& lamp, const SheetRays& rays, const double* axis, LightSpan& span);
@@ -218,9 +219,15 @@ struct SheetKernels {
   /// The bundle of light that reaches the lit points from `first` to `last` (whole registers); false when
   /// there are none.
   bool (*light_bundle)(const PointSheet& points, int first, int last, Bundle& bundle);
-  /// Unlights the points that the occluder (sphere or plane) shades; for any other surface, sets `trial`.
-  /// Returns whether anything was lit or is to be tried.
-  bool (*occlude)(const LaneOccluder& occluder, int first, int last, PointSheet& points);
+  /// Unlights the points from `first` to `last` that occluder `which` of the table surely shades: `time` is
+  /// amid their emission times. Bits: the points of which that is not clear.
+  std::uint64_t (*sift)(const LampTable& occluders, int which, double time, int first, int last,
+                        PointSheet& points);
+  /// The lit points at which the normal on the side that is seen points to `centre`, one bit each.
+  std::uint64_t (*inward)(const double (&centre)[3], const PointSheet& points);
+  /// Unlights those of the candidates that the occluder (sphere or plane) shades; for any other surface, sets
+  /// `trial`. Returns whether anything was lit or is to be tried.
+  bool (*occlude)(const LaneOccluder& occluder, PointSheet& points);
   /// Irradiance and Phong's lobe of the lit points.
   void (*reflect)(const LaneReflection& reflection, PointSheet& points);
   /// rgb += irradiance (diffuse/π + specular lamp) where lit.

@@ -92,12 +92,12 @@ void ConeStore::resize(std::size_t count) {
 
 void LampStore::resize(std::size_t count) {
   const std::size_t column = padded(count);
-  numbers_.assign(10 * column, 0.0);
+  numbers_.assign(11 * column, 0.0);
   who_.assign(column, -1);
   double* next = numbers_.data();
   for (double** start : {&table_.celerity[0], &table_.celerity[1], &table_.celerity[2], &table_.gamma,
                          &table_.inverse_gamma_plus_one, &table_.speed, &table_.place[0], &table_.place[1],
-                         &table_.place[2], &table_.radius}) {
+                         &table_.place[2], &table_.radius, &table_.core}) {
     *start = next;
     next += column;
   }
@@ -228,10 +228,12 @@ LampView SheetScene::view_of(const Scene& scene, const Hub& hub, std::size_t lig
     table.inverse_gamma_plus_one[j] = motion.inverse_gamma_plus_one();
     table.speed[j] = glm::length(w) * (1.0 + 1e-15);
     // Room for the rounding of `place`, and of the points that shadow rays start from.
-    table.radius[j] =
-        sphere.radius * (1.0 + 1e-11) +
+    const double room =
         1e-13 * (glm::length(here) + glm::length(view.camera_event.x) + glm::length(sphere.centre) +
                  2.0 * motion.gamma() * (glm::length(way) + glm::length(from) + glm::length(lamp.position)));
+    table.radius[j] = sphere.radius * (1.0 + 1e-11) + room;
+    const bool is_ball = occluder.lanes.kind == LaneSurface::Kind::sphere && occluder.lanes.aligned;
+    table.core[j] = is_ball && !motion.is_robust() ? sphere.radius * (1.0 - 1e-11) - room : 0.0;
     table.who[j] = static_cast<int>(i);
   }
   return result;

@@ -16,7 +16,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// As many points have a list of occluders of their own.
+// With more occluders than this near a sheet of points...
+constexpr int few_occluders = 4;
+// ...as many points have a list of their own.
 constexpr int few = 16;
 
 Vec3 vec(const double (&from)[3][sheet_size], int lane) {
@@ -49,7 +51,6 @@ SheetScratch::SheetScratch(const SheetScene& scene, std::size_t lights)
   for (LampStore& lamps : tile_lamps) lamps.resize(scene.occluders().size());
   chunk_lamps.resize(scene.occluders().size());
   near_lamps.resize(scene.occluders().size());
-  lamp_cones.resize(scene.occluders().size());
 }
 
 CameraRay SheetShader::camera_ray_of(int lane) const {
@@ -112,7 +113,7 @@ void SheetShader::begin_tile(const Effects& effects) {
       bundle.cosine = -1.0;
       bundle.sine = 1e-12;
     }
-    sheets_.kernels().overlapping_lamps(view.bounded.table(), bundle, list, nullptr);
+    sheets_.kernels().overlapping_lamps(view.bounded.table(), bundle, list);
   }
 }
 
@@ -206,7 +207,7 @@ void SheetShader::fill_diffuse(std::size_t light, int index) {
   for (int i = p.count; i < p.padded; ++i) put(LinearRgb{0.0}, p.diffuse, i);
 }
 
-void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Range range) {
+void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder) {
   PointSheet& p = work_.points;
   const Hub& hub = tracer_.hub();
   const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(occluder.frame)].scene->surfaces;
@@ -214,7 +215,7 @@ void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Ra
   const bool far = sheets_.one_by_one(occluder.frame) ||
                    hub.lights[light].to_frame[static_cast<std::size_t>(occluder.frame)].is_robust();
   RayList together;
-  for (int i = range.first; i < std::min(range.last, p.count); ++i) {
+  for (int i = 0; i < p.count; ++i) {
     if (!(p.trial[i] > 0.0)) continue;
     bool dark = false;
     const RayClock clock{p.trial_time[i], p.trial_rate[i]};
@@ -241,32 +242,45 @@ void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder, Ra
   }
 }
 
-void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone,
-                               Range range) {
-  const auto frame = static_cast<std::size_t>(occluder.frame);
-  LaneOccluder lanes{&sheets_.eye(eye_).frames[frame],
-                     &sheets_.lamp(light).to_frame[frame],
+// By the law, of those of the candidates (one bit for each point) that are still lit.
+void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, std::uint64_t candidates) {
+  if (candidates == 0) return;
+  const auto at = static_cast<std::size_t>(occluder.frame);
+  LaneOccluder lanes{&sheets_.eye(eye_).frames[at],
+                     &sheets_.lamp(light).to_frame[at],
                      &occluder.lanes,
                      static_cast<double>(occluder.frame),
-                     cone,
+                     candidates,
                      1.0};
   if (tracer_.scene().lights[light].kind == LightKind::distant) lanes.end = infinity;
   LaneSurface none;
-  const bool robust = tracer_.hub().lights[light].to_frame[frame].is_robust();
+  const bool robust = tracer_.hub().lights[light].to_frame[at].is_robust();
   if (robust) lanes.surface = &none;  // of kind `other`: one by one
-  if (sheets_.kernels().occlude(lanes, range.first, range.last, work_.points) &&
-      lanes.surface->kind == LaneSurface::Kind::other) {
-    try_one_by_one(light, occluder, range);
+  if (sheets_.kernels().occlude(lanes, work_.points) && lanes.surface->kind == LaneSurface::Kind::other) {
+    try_one_by_one(light, occluder);
   }
+}
+
+// Which points their own surface may shade. A start that is off a plane, or outside a ball, by the bound of
+// its error does not meet it again (surface/surface_set.h), since the lamp is on the side that is seen.
+std::uint64_t SheetShader::shaded_by_itself() const {
+  const LaneSurface& own = occupant_->lanes;
+  if (own.kind == LaneSurface::Kind::plane) return 0;
+  if (own.kind == LaneSurface::Kind::sphere && own.aligned) {
+    return sheets_.kernels().inward(own.centre, work_.points);
+  }
+  return ~std::uint64_t{0};
+}
+
+bool SheetShader::is_own(const Occupant& occluder) const {
+  return occluder.frame == occupant_->frame && occluder.surface == occupant_->surface;
 }
 
 void SheetShader::shadow(std::size_t light) {
   const LampView& view = sheets_.lamp(light);
-  LaneCone everything;
-  everything.level = -infinity;
   for (const int i : view.unbounded) {
-    try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(i)], everything,
-                 {0, work_.points.padded});
+    const Occupant& occluder = sheets_.occluders()[static_cast<std::size_t>(i)];
+    try_occluder(light, occluder, is_own(occluder) ? shaded_by_itself() : ~std::uint64_t{0});
   }
   if (view.bounded.table().count == 0) return;
   if (tracer_.scene().lights[light].kind == LightKind::distant) {
@@ -277,22 +291,33 @@ void SheetShader::shadow(std::size_t light) {
   // a few neighbours: each list is made from the one before.
   const bool listed = static_cast<std::size_t>(view.bounded.table().count) >= tile_list_from;
   const SheetKernels& kernels = sheets_.kernels();
-  const PointSheet& p = work_.points;
+  PointSheet& p = work_.points;
   Bundle bundle;
   if (!kernels.light_bundle(p, 0, p.padded, bundle)) return;
   const LampTable& all = listed ? work_.tile_lamps[light].table() : view.bounded.table();
-  const bool many_points = p.padded > few;
-  if (many_points) kernels.overlapping_lamps(all, bundle, work_.chunk_lamps.table(), nullptr);
+  LampTable& chunk = work_.chunk_lamps.table();
+  kernels.overlapping_lamps(all, bundle, chunk);
+  if (chunk.count <= few_occluders) {
+    sift(light, chunk, bundle.time, 0, p.padded);
+    return;
+  }
   LampTable& near = work_.near_lamps.table();
   for (int first = 0; first < p.padded; first += few) {
     const int last = std::min(first + few, p.padded);
     if (!kernels.light_bundle(p, first, last, bundle)) continue;
-    kernels.overlapping_lamps(many_points ? work_.chunk_lamps.table() : all, bundle, near,
-                              work_.lamp_cones.data());
-    for (int i = 0; i < near.count; ++i) {
-      try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(near.who[i])],
-                   work_.lamp_cones[static_cast<std::size_t>(i)], {first, last});
-    }
+    kernels.overlapping_lamps(chunk, bundle, near);
+    sift(light, near, bundle.time, first, last);
+  }
+}
+
+// The shadows of the listed occluders on the points from `first` to `last`.
+void SheetShader::sift(std::size_t light, const LampTable& near, double time, int first, int last) {
+  for (int i = 0; i < near.count; ++i) {
+    const Occupant& occluder = sheets_.occluders()[static_cast<std::size_t>(near.who[i])];
+    const std::uint64_t unclear = is_own(occluder)
+                                      ? shaded_by_itself()
+                                      : sheets_.kernels().sift(near, i, time, first, last, work_.points);
+    try_occluder(light, occluder, unclear);
   }
 }
 
@@ -309,8 +334,6 @@ void SheetShader::shadow_of_distant(std::size_t light) {
     reach =
         std::max(reach, glm::length(vec(p.place, i) - middle) + std::abs(p.relative_emission_time[i] - time));
   }
-  LaneCone everything;
-  everything.level = -infinity;
   for (int i = 0; i < table.count; ++i) {
     const Vec3 w{table.celerity[0][i], table.celerity[1][i], table.celerity[2][i]};
     const Vec3 place{table.place[0][i], table.place[1][i], table.place[2][i]};
@@ -323,8 +346,8 @@ void SheetShader::shadow_of_distant(std::size_t light) {
     const double along = glm::dot(x, k) / glm::length(k);
     const double aside = glm::dot(x, x) - along * along;
     if (along > radius || aside > radius * radius + 1e-12 * glm::dot(x, x)) continue;
-    try_occluder(light, sheets_.occluders()[static_cast<std::size_t>(table.who[i])], everything,
-                 {0, p.padded});
+    const Occupant& occluder = sheets_.occluders()[static_cast<std::size_t>(table.who[i])];
+    try_occluder(light, occluder, is_own(occluder) ? shaded_by_itself() : ~std::uint64_t{0});
   }
 }
 

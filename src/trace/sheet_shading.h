@@ -29,7 +29,6 @@ struct SheetScratch {
   std::vector<LampStore> tile_lamps;    ///< by light: what may shade any of the tile's hits
   LampStore chunk_lamps;                ///< what may shade any of the points of a sheet...
   LampStore near_lamps;                 ///< ...and a few of them
-  std::vector<LaneCone> lamp_cones;
   // Hits sorted by what was hit:
   struct Group {
     int who;
@@ -88,13 +87,11 @@ class SheetShader {
   void fill_strength(const Light& light, std::size_t index);
   void fill_diffuse(std::size_t light, int material);
   void shadow(std::size_t light);
-  /// Of points.
-  struct Range {
-    int first;
-    int last;
-  };
-  void try_occluder(std::size_t light, const Occupant& occluder, const LaneCone& cone, Range range);
-  void try_one_by_one(std::size_t light, const Occupant& occluder, Range range);
+  void sift(std::size_t light, const LampTable& near, double time, int first, int last);
+  void try_occluder(std::size_t light, const Occupant& occluder, std::uint64_t candidates);
+  void try_one_by_one(std::size_t light, const Occupant& occluder);
+  [[nodiscard]] std::uint64_t shaded_by_itself() const;
+  [[nodiscard]] bool is_own(const Occupant& occluder) const;
   void shadow_of_distant(std::size_t light);
   void light_rgb(const Material& material, int material_index, const Effects& effects);
   bool light_arrives(std::size_t light, const Effects& effects, const Material& material,

@@ -38,7 +38,14 @@ struct SampleCounts {
   std::uint64_t most = 0;      ///< in any pixel
   std::uint64_t at_limit = 0;  ///< pixels whose error may be larger than film.tolerance for all that
 
-  void add(int samples, bool is_at_limit);
+  void add(int samples, bool is_at_limit) {
+    const auto count = static_cast<std::uint64_t>(samples);
+    least = pixels == 0 || count < least ? count : least;
+    most = count > most ? count : most;
+    ++pixels;
+    total += count;
+    at_limit += is_at_limit ? 1 : 0;
+  }
   SampleCounts& operator+=(const SampleCounts& other);
   /// Samples a pixel on average; 0 without pixels.
   [[nodiscard]] double mean() const { return pixels > 0 ? double(total) / double(pixels) : 0.0; }
