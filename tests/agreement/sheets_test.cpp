@@ -78,7 +78,7 @@ void expect_the_law(const std::string& scene, const RenderChoices& choices = {})
   RenderChoices law = choices;
   law.path = RayPath::one_by_one;
   const Rendering expected = render_text(scene, law);
-  for (const InstructionSet set : {InstructionSet::widest, InstructionSet::baseline}) {
+  for (const InstructionSet set : {InstructionSet::widest, InstructionSet::avx2, InstructionSet::baseline}) {
     RenderChoices sheets = choices;
     sheets.instructions = set;
     const Rendering got = render_text(scene, sheets);

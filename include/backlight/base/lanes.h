@@ -34,6 +34,11 @@ struct LaneRegister<4> {
   typedef double Numbers __attribute__((vector_size(32)));
   typedef long long Integers __attribute__((vector_size(32)));
 };
+template <>
+struct LaneRegister<8> {
+  typedef double Numbers __attribute__((vector_size(64)));
+  typedef long long Integers __attribute__((vector_size(64)));
+};
 
 /// Yes or no for each lane.
 template <int N>
@@ -86,6 +91,9 @@ BACKLIGHT_LANES Lanes<N> select(LaneMask<N> mask, Lanes<N> a, Lanes<N> b) {
 /// Bit i is lane i.
 template <int N>
 BACKLIGHT_LANES unsigned bits(LaneMask<N> mask) {
+#if defined(__AVX512DQ__)
+  if constexpr (N == 8) return static_cast<unsigned>(_mm512_movepi64_mask((__m512i)mask.v));
+#endif
 #if defined(__AVX__)
   if constexpr (N == 4) return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask.v));
 #endif
@@ -107,6 +115,9 @@ BACKLIGHT_LANES LaneMask<N> mask_of_bits(unsigned all) {
 
 template <int N>
 BACKLIGHT_LANES Lanes<N> sqrt(Lanes<N> a) {
+#if defined(__AVX512F__)
+  if constexpr (N == 8) return (typename Lanes<N>::Vec)_mm512_sqrt_pd((__m512d)a.v);
+#endif
 #if defined(__AVX__)
   if constexpr (N == 4) return (typename Lanes<N>::Vec)_mm256_sqrt_pd((__m256d)a.v);
 #endif

@@ -17,6 +17,7 @@ namespace backlight {
 /// Which instructions the kernels over sheets use. All give the same bits.
 enum class InstructionSet {
   widest,   ///< the most lanes that this machine has
+  avx2,     ///< four lanes, where it has them
   baseline  ///< those that every machine of its kind has
 };
 
