@@ -2,6 +2,10 @@
 
 #include <toml++/toml.h>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -20,14 +24,17 @@ Place place_of(const toml::source_region& region, std::uint32_t source) {
   return place;
 }
 
-Node convert(const toml::node& from, std::uint32_t source);
+// The library's values take several times the room of ours, and there may be millions: what is converted is given
+// back at once, for ours to take its place.
+Node convert(toml::node& from, std::uint32_t source);
 
-NodeTable convert_table(const toml::table& from, std::uint32_t source) {
+NodeTable convert_table(toml::table& from, std::uint32_t source) {
   NodeTable table;
   table.reserve(from.size());
-  for (const auto& [key, value] : from) {
+  for (auto&& [key, value] : from) {
     table.push_back({std::string(key.str()), place_of(key.source(), source), convert(value, source)});
   }
+  from.clear();
   // The library sorts by name; the author's order is the one to report and to number in.
   std::stable_sort(table.begin(), table.end(), [](const Entry& a, const Entry& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
@@ -35,15 +42,16 @@ NodeTable convert_table(const toml::table& from, std::uint32_t source) {
   return table;
 }
 
-Node convert(const toml::node& from, std::uint32_t source) {
+Node convert(toml::node& from, std::uint32_t source) {
   Node node;
   node.place = place_of(from.source(), source);
-  if (const auto* table = from.as_table()) {
+  if (auto* table = from.as_table()) {
     node.value = convert_table(*table, source);
-  } else if (const auto* array = from.as_array()) {
+  } else if (auto* array = from.as_array()) {
     NodeArray elements;
     elements.reserve(array->size());
-    for (const toml::node& element : *array) elements.push_back(convert(element, source));
+    for (toml::node& element : *array) elements.push_back(convert(element, source));
+    array->clear();
     node.value = std::move(elements);
   } else if (const auto* text = from.as_string()) {
     node.value = text->get();
@@ -98,6 +106,16 @@ std::optional<Place> overlong_key(std::string_view text, std::uint32_t source) {
   return std::nullopt;
 }
 
+// From this size on it is worth a moment to give memory back to the system: what follows has other sizes, and
+// would not fit into the gaps.
+constexpr std::size_t large_text = std::size_t{1} << 20U;
+
+void give_back_memory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
+
 std::string message_of(const toml::parse_error& error) {
   std::string text(error.description());
   const std::string_view prefix = "Error while parsing ";
@@ -118,8 +136,13 @@ std::variant<Node, TomlError> parse_toml(std::string_view text, std::uint32_t so
     return TomlError{*place, "a dotted key of more than " + std::to_string(longest_dotted_key) + " parts"};
   }
   try {
-    const toml::table table = toml::parse(text);
-    return Node{convert_table(table, source), {source, 1, 1, 1}};
+    Node root{NodeTable{}, {source, 1, 1, 1}};
+    {
+      toml::table table = toml::parse(text);
+      root.value = convert_table(table, source);
+    }
+    if (text.size() >= large_text) give_back_memory();
+    return root;
   } catch (const toml::parse_error& error) {
     return TomlError{place_of(error.source(), source), message_of(error)};
   }
