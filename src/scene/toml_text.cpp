@@ -24,8 +24,8 @@ Place place_of(const toml::source_region& region, std::uint32_t source) {
   return place;
 }
 
-// The library's values take several times the room of ours, and there may be millions: what is converted is given
-// back at once, for ours to take its place.
+// The library's values take several times the room of ours, and there may be millions: what is converted is
+// given back at once, for ours to take its place.
 Node convert(toml::node& from, std::uint32_t source);
 
 NodeTable convert_table(toml::table& from, std::uint32_t source) {

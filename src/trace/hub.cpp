@@ -13,7 +13,8 @@ FrameView view_of(const SceneFrame& frame, const CameraView& camera) {
   view.scene = &frame;
   const BoundingSphere bounds = frame.surfaces->bounds();
   if (view.from_camera.gamma() > robust_gamma && bounds.radius >= 0.0 && std::isfinite(bounds.radius)) {
-    view.far = FarView{ExtendedTransform(frame.motion.celerity, camera.celerity), event, bounds};
+    view.far = std::make_shared<const FarView>(
+        FarView{ExtendedTransform(frame.motion.celerity, camera.celerity), event, bounds});
   }
   return view;
 }

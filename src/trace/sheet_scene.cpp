@@ -10,6 +10,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Of what takes one ray at a time.
+constexpr LaneSurface no_lanes{};
+
 // Columns of `count` numbers, and room for a register of any width behind the last.
 std::size_t padded(std::size_t count) {
   return (count + 8) / 4 * 4;
@@ -81,27 +84,27 @@ LaneCone cone_of_now(const FrameView& view, const Vec3& origin, const BoundingSp
 
 void ConeStore::resize(std::size_t count) {
   const std::size_t column = padded(count);
-  numbers_.assign(5 * column, 0.0);
-  who_.assign(column, -1);
-  for (std::size_t i = 0; i < 3; ++i) table_.axis[i] = numbers_.data() + i * column;
-  table_.level = numbers_.data() + 3 * column;
-  table_.radius = numbers_.data() + 4 * column;
-  table_.who = who_.data();
+  numbers_ = std::make_unique_for_overwrite<double[]>(5 * column);
+  who_ = std::make_unique_for_overwrite<int[]>(column);
+  for (std::size_t i = 0; i < 3; ++i) table_.axis[i] = numbers_.get() + i * column;
+  table_.level = numbers_.get() + 3 * column;
+  table_.radius = numbers_.get() + 4 * column;
+  table_.who = who_.get();
   table_.count = static_cast<int>(count);
 }
 
 void LampStore::resize(std::size_t count) {
   const std::size_t column = padded(count);
-  numbers_.assign(11 * column, 0.0);
-  who_.assign(column, -1);
-  double* next = numbers_.data();
+  numbers_ = std::make_unique_for_overwrite<double[]>(11 * column);
+  who_ = std::make_unique_for_overwrite<int[]>(column);
+  double* next = numbers_.get();
   for (double** start : {&table_.celerity[0], &table_.celerity[1], &table_.celerity[2], &table_.gamma,
                          &table_.inverse_gamma_plus_one, &table_.speed, &table_.place[0], &table_.place[1],
                          &table_.place[2], &table_.radius, &table_.core}) {
     *start = next;
     next += column;
   }
-  table_.who = who_.data();
+  table_.who = who_.get();
   table_.count = static_cast<int>(count);
 }
 
@@ -112,7 +115,7 @@ Displacement<Camera> eye_offset(const CameraView& camera, int eye) {
 
 SheetScene::SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& kernels) : kernels_(&kernels) {
   for (const FrameView& view : hub.frames) {
-    one_by_one_.push_back(view.from_camera.is_robust() || view.far.has_value());
+    one_by_one_.push_back(view.from_camera.is_robust() || view.far != nullptr);
   }
   list_occupants(hub);
   if (scene.camera.stereo) {
@@ -133,16 +136,24 @@ SheetScene::SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& k
 }
 
 void SheetScene::list_occupants(const Hub& hub) {
+  std::size_t most = 0;
+  for (const int frame : hub.occupied) {
+    most += hub.frames[static_cast<std::size_t>(frame)].scene->surfaces->size();
+  }
+  lanes_.reserve(most);  // the occupants point into it
   for (const int frame : hub.occupied) {
     const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(frame)].scene->surfaces;
     const auto count = static_cast<int>(surfaces.size());
     const bool whole = one_by_one(frame);
-    if (whole) occupants_.push_back({frame, -1, {}});
-    for (int s = 0; s < count && !whole; ++s) occupants_.push_back({frame, s, surfaces.lane_surface(s)});
+    const std::size_t first = lanes_.size();
+    for (int s = 0; s < count && !whole; ++s) lanes_.push_back(surfaces.lane_surface(s));
+    const auto lanes = [&](int s) { return &lanes_[first + static_cast<std::size_t>(s)]; };
+    if (whole) occupants_.push_back({frame, -1, &no_lanes});
+    for (int s = 0; s < count && !whole; ++s) occupants_.push_back({frame, s, lanes(s)});
     // A tree does not help with what has no bounds: those are few, and stay single.
     const bool tree = whole || (surfaces.size() > tree_from && std::isfinite(surfaces.bounds().radius));
-    if (tree) occluders_.push_back({frame, -1, {}});
-    for (int s = 0; s < count && !tree; ++s) occluders_.push_back({frame, s, surfaces.lane_surface(s)});
+    if (tree) occluders_.push_back({frame, -1, &no_lanes});
+    for (int s = 0; s < count && !tree; ++s) occluders_.push_back({frame, s, lanes(s)});
   }
 }
 
@@ -232,7 +243,7 @@ LampView SheetScene::view_of(const Scene& scene, const Hub& hub, std::size_t lig
         1e-13 * (glm::length(here) + glm::length(view.camera_event.x) + glm::length(sphere.centre) +
                  2.0 * motion.gamma() * (glm::length(way) + glm::length(from) + glm::length(lamp.position)));
     table.radius[j] = sphere.radius * (1.0 + 1e-11) + room;
-    const bool is_ball = occluder.lanes.kind == LaneSurface::Kind::sphere && occluder.lanes.aligned;
+    const bool is_ball = occluder.lanes->kind == LaneSurface::Kind::sphere && occluder.lanes->aligned;
     table.core[j] = is_ball && !motion.is_robust() ? sphere.radius * (1.0 - 1e-11) - room : 0.0;
     table.who[j] = static_cast<int>(i);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "backlight/trace/hub.h"
@@ -19,8 +20,9 @@ class ConeStore {
 
  private:
   ConeTable table_;
-  std::vector<double> numbers_;
-  std::vector<int> who_;
+  // Not touched before it is used: of a large scene's lists most threads use a small part.
+  std::unique_ptr<double[]> numbers_;
+  std::unique_ptr<int[]> who_;
 };
 
 /// A LampTable with its memory.
@@ -32,15 +34,16 @@ class LampStore {
 
  private:
   LampTable table_;
-  std::vector<double> numbers_;
-  std::vector<int> who_;
+  // Not touched before it is used: of a large scene's lists most threads use a small part.
+  std::unique_ptr<double[]> numbers_;
+  std::unique_ptr<int[]> who_;
 };
 
 /// Something that a ray may meet: a surface, or all surfaces of a frame.
 struct Occupant {
   int frame = 0;
-  int surface = -1;  ///< -1: all of the frame's, by SurfaceSet's own search
-  LaneSurface lanes;
+  int surface = -1;                    ///< -1: all of the frame's, by SurfaceSet's own search
+  const LaneSurface* lanes = nullptr;  ///< of kind `other` where one ray goes at a time
 };
 
 /// The view of one eye.
@@ -77,6 +80,7 @@ class SheetScene {
   LampView view_of(const Scene& scene, const Hub& hub, std::size_t light) const;
 
   const SheetKernels* kernels_;
+  std::vector<LaneSurface> lanes_;
   std::vector<Occupant> occupants_;
   std::vector<Occupant> occluders_;
   std::vector<EyeView> eyes_;

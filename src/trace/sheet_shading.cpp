@@ -119,7 +119,7 @@ void SheetShader::begin_tile(const Effects& effects) {
 
 void SheetShader::begin_points(const Occupant& occupant) {
   occupant_ = &occupant;
-  hits_known_ = occupant.lanes.kind == LaneSurface::Kind::other;
+  hits_known_ = occupant.lanes->kind == LaneSurface::Kind::other;
   work_.points.frame = occupant.frame;
 }
 
@@ -162,14 +162,14 @@ int SheetShader::resolve_one_by_one(const Occupant& occupant) {
 
 int SheetShader::resolve(const Occupant& occupant) {
   const Scene& scene = tracer_.scene();
-  const LaneSurface::Kind kind = occupant.lanes.kind;
+  const LaneSurface::Kind kind = occupant.lanes->kind;
   if (kind == LaneSurface::Kind::other) return resolve_one_by_one(occupant);
   const int index = object_of(scene, occupant.frame, occupant.surface).material;
   const Material& material = scene.materials[static_cast<std::size_t>(index)];
   const bool needs_uv = material.texture || material.checker;
   if (kind == LaneSurface::Kind::sphere && needs_uv) return resolve_one_by_one(occupant);
   const LaneFrame& frame = sheets_.eye(eye_).frames[static_cast<std::size_t>(occupant.frame)];
-  if (sheets_.kernels().resolve(frame, occupant.lanes, work_.points) == 0) return index;
+  if (sheets_.kernels().resolve(frame, *occupant.lanes, work_.points) == 0) return index;
   return resolve_one_by_one(occupant);
 }
 
@@ -248,7 +248,7 @@ void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, std:
   const auto at = static_cast<std::size_t>(occluder.frame);
   LaneOccluder lanes{&sheets_.eye(eye_).frames[at],
                      &sheets_.lamp(light).to_frame[at],
-                     &occluder.lanes,
+                     occluder.lanes,
                      static_cast<double>(occluder.frame),
                      candidates,
                      1.0};
@@ -264,7 +264,7 @@ void SheetShader::try_occluder(std::size_t light, const Occupant& occluder, std:
 // Which points their own surface may shade. A start that is off a plane, or outside a ball, by the bound of
 // its error does not meet it again (surface/surface_set.h), since the lamp is on the side that is seen.
 std::uint64_t SheetShader::shaded_by_itself() const {
-  const LaneSurface& own = occupant_->lanes;
+  const LaneSurface& own = *occupant_->lanes;
   if (own.kind == LaneSurface::Kind::plane) return 0;
   if (own.kind == LaneSurface::Kind::sphere && own.aligned) {
     return sheets_.kernels().inward(own.centre, work_.points);

@@ -194,8 +194,8 @@ class SheetSearch {
   void ask(TileSheet& sheet, int who, const LaneCone& cone) {
     const Occupant& occupant = scene_.occupants()[static_cast<std::size_t>(who)];
     const LaneFrame& frame = scene_.eye(eye_).frames[static_cast<std::size_t>(occupant.frame)];
-    if (occupant.lanes.kind != LaneSurface::Kind::other) {
-      scene_.kernels().nearest(frame, occupant.lanes, cone, who, sheet.rays);
+    if (occupant.lanes->kind != LaneSurface::Kind::other) {
+      scene_.kernels().nearest(frame, *occupant.lanes, cone, who, sheet.rays);
       return;
     }
     const std::uint64_t inside = scene_.kernels().inside(sheet.rays, cone);
@@ -383,7 +383,7 @@ class SheetPainter {
       for (int k = 0; k < 3; ++k) p.direction[k][p.count] = sheet.rays.direction[k][lane];
       p.lambda[p.count] = sheet.rays.lambda[lane];
     }
-    if (occupant.lanes.kind != LaneSurface::Kind::other) return left;
+    if (occupant.lanes->kind != LaneSurface::Kind::other) return left;
     for (int i = first; i < p.count; ++i) {
       const int lane = p.lane[i] % sheet_size;
       work_.hits[i] = {p.lambda[i], occupant.surface, sheet.part[lane], sheet.unresolved[lane],
@@ -414,7 +414,7 @@ class SheetPainter {
 
   void put_colours(const Occupant& occupant) {
     const PointSheet& p = work_.points;
-    const bool other = occupant.lanes.kind == LaneSurface::Kind::other;
+    const bool other = occupant.lanes->kind == LaneSurface::Kind::other;
     for (int i = 0; i < p.count; ++i) {
       const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
       const auto place = static_cast<std::size_t>(sheet.place[p.lane[i] % sheet_size]);

@@ -5,7 +5,7 @@
 // frames of γ = 10⁶ then cost nothing.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "backlight/scene/scene.h"
@@ -26,7 +26,8 @@ struct FrameView {
   LorentzTransform<Rest, Camera> from_camera;
   Event<Rest> camera_event;  ///< the exposure, in the frame's coordinates
   const SceneFrame* scene = nullptr;
-  std::optional<FarView> far;  ///< for γ > robust_gamma, where the surfaces have bounds
+  /// For γ > robust_gamma, where the surfaces have bounds; else null: there may be many frames.
+  std::shared_ptr<const FarView> far;
 };
 
 /// One light's rest frame, and the way from it to every frame of the scene.
