@@ -6,6 +6,7 @@
 
 #include "backlight/surface/implicit_surface.h"
 #include "convex.h"
+#include "implicit_points.h"
 #include "implicit_roots.h"
 #include "shape_table.h"
 #include "solid_walk.h"
@@ -13,18 +14,17 @@
 namespace backlight {
 namespace {
 
-// Beside the two corners, `values` of an implicit shape hold:
-constexpr std::size_t time_scale = 6;  // seconds_per_length
-constexpr std::size_t skips = 7;       // 1: unresolved roots are no surface
-constexpr std::size_t forms = 8;       // 1: first roots are found by affine forms
+using implicit_value::forms;
+using implicit_value::skips;
+using implicit_value::time_scale;
 
-constexpr int caps = 1;  // parts 1..6: the faces of the bounds, where they cut the inside
+constexpr int caps = implicit_caps;
 
 Vec3 low_of(const Shape& shape) {
-  return {shape.values[0], shape.values[1], shape.values[2]};
+  return implicit_low(shape);
 }
 Vec3 high_of(const Shape& shape) {
-  return {shape.values[3], shape.values[4], shape.values[5]};
+  return implicit_high(shape);
 }
 
 std::string problem_of(const Shape& shape) {
@@ -72,19 +72,6 @@ thread_local std::uint64_t roots_solved = 0;
 /// Whether a root is left out.
 bool skipped(const Shape& shape, const Root& root) {
   return root.kind == RootKind::unresolved && shape.values[skips] != 0.0;
-}
-
-/// Which of the formulas of a blend is the least.
-int member_at(const Shape& shape, const Vec3& p, double time) {
-  int member = 0;
-  double least = infinite;
-  for (std::size_t i = 0; shape.blend && i < shape.blend->formulas.size(); ++i) {
-    const double value = shape.blend->formulas[i].value(p, time);
-    if (!(value < least)) continue;
-    least = value;
-    member = shape.blend->members[i];
-  }
-  return member;
 }
 
 RootFinder finder_of(const Shape& shape) {
@@ -167,62 +154,17 @@ void begin_walk(const Shape& shape, const LocalLine& line, double from, SolidWal
              shape.values[skips] == 0.0);
 }
 
-/// From 0 at +y to 1 at -y.
-double latitude(const Vec3& p) {
-  return std::atan2(std::hypot(p.x, p.z), p.y) * std::numbers::inv_pi;
-}
-
-/// How far f's rounding hides its zero about an unresolved root, backwards along the line.
-double hidden_length(const ImplicitFormula& f, const LocalLine& line, double t, double size) {
-  double length = 4.0 * std::numeric_limits<double>::epsilon() * size;
-  while (length < size &&
-         f.sign(line.at(t - length), line.clock.start + (t - length) * line.clock.rate) == 0) {
-    length *= 2.0;
-  }
-  return length;
-}
-
-LocalPoint point_of(const Shape& shape, const LocalLine& in_frame_time, const Crossing& crossing) {
-  LocalLine line = in_frame_time;
-  line.clock.start *= shape.values[time_scale];
-  line.clock.rate *= shape.values[time_scale];
-  const Vec3 p = line.at(crossing.t);
-  LocalPoint result{p, -line.direction, longitude(p.x, p.z), latitude(p)};
-  const double time = line.clock.start + crossing.t * line.clock.rate;
-  result.member = member_at(shape, p, time);
-  if (crossing.part >= caps) {
-    const int face = crossing.part - caps;
-    result.gradient = Vec3{0.0};
-    result.gradient[face / 2] = face % 2 == 0 ? -1.0 : 1.0;
-    result.position[face / 2] = face % 2 == 0 ? low_of(shape)[face / 2] : high_of(shape)[face / 2];
-    return result;
-  }
-  const ImplicitFormula& f = *shape.formula;
-  const double size = glm::length(high_of(shape) - low_of(shape));
-  if (crossing.unresolved) {
-    result.error = hidden_length(f, line, crossing.t, size);
-    const double before = crossing.t - result.error;
-    const Vec3 gradient = f.gradient(line.at(before), line.clock.start + before * line.clock.rate);
-    if (glm::dot(gradient, gradient) > 0.0 && glm::dot(gradient, gradient) < infinite)
-      result.gradient = gradient;
-    return result;
-  }
-  const Vec3 gradient = f.gradient(p, time);
-  const double square = glm::dot(gradient, gradient);
-  if (!(square > 0.0 && square < infinite)) return result;
-  result.gradient = gradient;
-  const Vec3 step = gradient * (f.value(p, time) / square);
-  if (glm::length(step) < 1e-12 * size) result.position = p - step;
-  const Interval left = f.range(result.position, result.position, {time, time, Continuity::continuous});
-  result.error = std::min(2.0 * std::max(-left.lower, left.upper) / std::sqrt(square), 1e-3 * size);
-  return result;
+LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
+  LocalPoint point;
+  implicit_points(shape, {&line, 1}, {&crossing, 1}, TextureCoordinates::wanted, {&point, 1});
+  return point;
 }
 
 }  // namespace
 
 const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",         true,         problem_of,
                                     radius_of,           extent_of,          crossings_of, point_of,
-                                    begin_walk,          first_crossings_of, finder_of};
+                                    begin_walk,          first_crossings_of, finder_of,    implicit_points};
 
 std::uint64_t roots_solved_by_this_thread() {
   return roots_solved;

@@ -48,6 +48,9 @@ struct LocalPoint {
   bool is_unit = false;  ///< whether the gradient's length is 1, to within rounding
 };
 
+/// Whether a point's u and v are to be computed; else they are 0.
+enum class TextureCoordinates : bool { unwanted, wanted };
+
 /// Half the extent along one rest axis of a circle of radius 1 about the local y axis, of a unit sphere, and
 /// of the local unit vectors.
 struct Extent {
@@ -79,6 +82,9 @@ struct ShapeMethods {
   void (*first_crossings)(const Shape&, std::span<const LocalLine>, double lambda_min, std::span<Crossings>);
   /// How crossings are found; null: in closed form.
   RootFinder (*finder)(const Shape&);
+  /// The points of many crossings, each on its own line and as `point` would find it; null: one by one.
+  void (*points)(const Shape&, std::span<const LocalLine>, std::span<const Crossing>, TextureCoordinates,
+                 std::span<LocalPoint>);
 };
 
 /// The row of a kind.

@@ -16,7 +16,10 @@ double largest(const Vec3& v) {
 }  // namespace
 
 SurfacePoint surface_point(const PlacedSurface& surface, const LocalLine& line, const Crossing& crossing) {
-  const LocalPoint point = methods(surface.shape).point(surface.shape, line, crossing);
+  return surface_point(surface, methods(surface.shape).point(surface.shape, line, crossing));
+}
+
+SurfacePoint surface_point(const PlacedSurface& surface, const LocalPoint& point) {
   const Vec3 offset = surface.aligned ? point.position : surface.placement.rest_from_local() * point.position;
   SurfacePoint result;
   result.position = surface.placement.position() + offset;

@@ -10,4 +10,7 @@ namespace backlight {
 /// `crossing`: one that the shape reported for the local line.
 SurfacePoint surface_point(const PlacedSurface& surface, const LocalLine& line, const Crossing& crossing);
 
+/// The same of a point in local coordinates.
+SurfacePoint surface_point(const PlacedSurface& surface, const LocalPoint& point);
+
 }  // namespace backlight

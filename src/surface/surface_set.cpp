@@ -258,6 +258,39 @@ void SurfaceSet::first_crossings_of(int surface, const Rays& rays, std::span<Hit
   }
 }
 
+void SurfaceSet::resolve_all(std::span<const Hit> hits, const Rays& rays, bool with_texture_coordinates,
+                             std::span<SurfacePoint> points) const {
+  const auto ray = [&](std::size_t i) {
+    return RestRay({rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]},
+                   {rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]},
+                   {rays.time[i], rays.rate[i]});
+  };
+  const PlacedSurface& surface = surfaces_[static_cast<std::size_t>(hits[0].surface)];
+  const auto many = methods(surface.shape).points;
+  const auto lost = [](const Hit& hit) { return std::isnan(hit.along); };
+  if (many == nullptr || std::any_of(hits.begin(), hits.end(), lost)) {
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const RestRay one = ray(i);
+      points[i] = resolve(hits[i], one.origin, one.direction, one.clock);
+    }
+    return;
+  }
+  thread_local std::vector<LocalLine> lines;
+  thread_local std::vector<Crossing> crossings;
+  thread_local std::vector<LocalPoint> local;
+  lines.clear();
+  crossings.clear();
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    lines.push_back(local_line(ray(i), surface));
+    crossings.push_back({hits[i].along, hits[i].part, hits[i].unresolved});
+  }
+  local.resize(lines.size());
+  many(surface.shape, lines, crossings,
+       with_texture_coordinates ? TextureCoordinates::wanted : TextureCoordinates::unwanted, local);
+  std::transform(local.begin(), local.end(), points.begin(),
+                 [&](const LocalPoint& point) { return surface_point(surface, point); });
+}
+
 LaneSurface SurfaceSet::lane_surface(int surface) const {
   const PlacedSurface& placed = surfaces_[static_cast<std::size_t>(surface)];
   const Mat3& inverse = placed.placement.local_from_rest();

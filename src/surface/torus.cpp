@@ -162,17 +162,34 @@ Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_
   return result;
 }
 
-LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
+LocalPoint point_on(const Shape& shape, const LocalLine& line, double t, TextureCoordinates wanted) {
   const double major = shape.values[0];
   const double minor = shape.values[1];
-  const Vec3 p = line.at(crossing.t);
-  const double rho = std::hypot(p.x, p.z);
+  const Vec3 p = line.at(t);
+  const double rho = std::sqrt(p.x * p.x + p.z * p.z);
   const double beside = rho - major;
-  const double scale = minor / std::hypot(beside, p.y);
-  const double on_rho = major + beside * scale;
-  const Vec3 on{p.x * (on_rho / rho), p.y * scale, p.z * (on_rho / rho)};
-  const Vec3 gradient{p.x / rho * beside, p.y, p.z / rho * beside};
-  return {on, gradient, longitude(p.x, p.z), 0.5 - std::atan2(p.y, beside) * (0.5 * std::numbers::inv_pi)};
+  const double scale = minor / std::sqrt(beside * beside + p.y * p.y);
+  const double per_rho = 1.0 / rho;
+  const double on_rho = (major + beside * scale) * per_rho;
+  LocalPoint point;
+  point.position = {p.x * on_rho, p.y * scale, p.z * on_rho};
+  point.gradient = {p.x * per_rho * beside, p.y, p.z * per_rho * beside};
+  if (wanted == TextureCoordinates::wanted) {
+    point.u = longitude(p.x, p.z);
+    point.v = 0.5 - std::atan2(p.y, beside) * (0.5 * std::numbers::inv_pi);
+  }
+  return point;
+}
+
+LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
+  return point_on(shape, line, crossing.t, TextureCoordinates::wanted);
+}
+
+void points_of(const Shape& shape, std::span<const LocalLine> lines, std::span<const Crossing> crossings,
+               TextureCoordinates wanted, std::span<LocalPoint> points) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    points[i] = point_on(shape, lines[i], crossings[i].t, wanted);
+  }
 }
 
 std::string problem_of(const Shape& shape) {
@@ -200,7 +217,7 @@ RootFinder finder_of(const Shape& /*shape*/) {
 
 const ShapeMethods torus_methods{ShapeKind::torus, "torus",     true,         problem_of,
                                  bounding_radius,  half_extent, crossings_of, point_of,
-                                 nullptr,          nullptr,     finder_of};
+                                 nullptr,          nullptr,     finder_of,    points_of};
 
 Shape torus(double major, double minor) {
   return {ShapeKind::torus, {major, minor}, {}};

@@ -139,22 +139,33 @@ int SheetShader::resolve_one_by_one(const Occupant& occupant) {
   const SurfaceSet& surfaces =
       *tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
   alignas(64) double error_bound[sheet_size] = {};
+  RayList rays;
+  Hit of_ray[sheet_size];
+  SurfacePoint points[sheet_size];
+  for (int i = 0; i < p.count; ++i) {
+    of_ray[i] = hit(i).hit;
+    scratch_.rays.start(camera_ray_of(i));
+    const RestRayEvents& ray = scratch_.rays.in(occupant.frame);
+    rays.add(i, ray.origin, ray.direction, ray.clock());
+  }
+  const Object& object = object_of(scene, hit(0));
+  const Material& own = scene.materials[static_cast<std::size_t>(object.material)];
+  const bool textured = !object.member_materials.empty() || own.texture || own.checker;
+  const auto count = static_cast<std::size_t>(p.count);
+  surfaces.resolve_all(std::span(of_ray, count), rays.rays(), textured, points);
   int material = -1;
   bool same = true;
   for (int i = 0; i < p.padded; ++i) {
-    const int from = std::min(i, p.count - 1);
-    const FirstHit first = hit(from);
-    scratch_.rays.start(camera_ray_of(from));
-    const RestRayEvents& ray = scratch_.rays.in(occupant.frame);
-    const SurfacePoint point = surfaces.resolve(first.hit, ray.origin, ray.direction, ray.clock());
+    const auto from = static_cast<std::size_t>(std::min(i, p.count - 1));
+    const SurfacePoint& point = points[from];
     put(point.position, p.position, i);
     put(point.normal, p.normal, i);
     p.u[i] = point.u;
     p.v[i] = point.v;
     error_bound[i] = point.error_bound;
-    const int own = material_of(scene, first, point);
-    same = same && (i == 0 || own == material);
-    material = own;
+    const int its = material_of(scene, hit(static_cast<int>(from)), point);
+    same = same && (i == 0 || its == material);
+    material = its;
   }
   sheets_.kernels().face(sheets_.eye(eye_).frames[static_cast<std::size_t>(occupant.frame)], error_bound, p);
   return same ? material : -1;

@@ -227,7 +227,7 @@ stars = { count = 500, seed = 4 }
   expect_the_law(scene_of(all), three_colours);
 }
 
-// Solids and formulas take one ray at a time, after the cones.
+// Solids take one ray at a time, after the cones.
 TEST(Sheets, AreTheLawForManySurfacesOfAFrame) {
   std::string more;
   for (int i = 0; i < 80; ++i) {
@@ -237,6 +237,53 @@ TEST(Sheets, AreTheLawForManySurfacesOfAFrame) {
   }
   expect_the_law(scene_of({.spheres = 20, .gamma = 2.0, .width = 60, .height = 40, .more = more}),
                  three_colours);
+}
+
+// Formulas, by either search, with a clock, with texture coordinates, with roots that are not resolved, and
+// with members.
+TEST(Sheets, AreTheLawForFormulas) {
+  const std::string more = R"toml(
+[[light]]
+position = [3, 4, -5]
+beta = [0.2, 0.3, 0]
+intensity = 100
+[[object]]
+shape = "implicit"
+f = "4*(2.618*x^2-y^2)*(2.618*y^2-z^2)*(2.618*z^2-x^2) - 4.236*(x^2+y^2+z^2-1)^2"
+bounds = [[-1.5, -1.5, -1.5], [1.5, 1.5, 1.5]]
+position = [1, 1, 0]
+beta = [0.5, 0.1, 0.2]
+[[object]]
+shape = "implicit"
+f = "sqrt((sqrt(x^2+z^2)-1)^2+y^2) - 0.3 - 0.1*sin(t)"
+bounds = [[-1.5, -0.5, -1.5], [1.5, 0.5, 1.5]]
+position = [-2, 0, 1]
+rotate = [50, 20, 0]
+material = { checker = { colors = [[0.8, 0.8, 0.8], [0.3, 0.1, 0.1]], size = 0.1 } }
+[[object]]
+shape = "implicit"
+f = "(x^2+y^2+z^2-1)^2*(x+0.2*t)"
+bounds = [[-1.1, -1.1, -1.1], [1.1, 1.1, 1.1]]
+position = [0, -1, -2]
+beta = [0, 0.3, 0.3]
+[[object]]
+shape = "union"
+blend = 0.3
+position = [2, -1, 1]
+[[object.part]]
+shape = "sphere"
+radius = 0.6
+material = { color = [0.9, 0.2, 0.2] }
+[[object.part]]
+shape = "torus"
+major = 0.8
+minor = 0.2
+position = [0.4, 0, 0]
+material = { color = [0.2, 0.2, 0.9] }
+)toml";
+  const Field formulas{.spheres = 5, .gamma = 2.0, .width = 60, .height = 40, .more = more};
+  expect_the_law(scene_of(formulas));
+  expect_the_law(scene_of(formulas), three_colours);
 }
 
 TEST(LanePower, IsTheSameForAnyWidth) {

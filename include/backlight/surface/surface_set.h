@@ -111,6 +111,11 @@ class SurfaceSet {
   };
   void first_crossings_of(int surface, const Rays& rays, std::span<Hit> hits) const;
 
+  /// resolve() of the hits of one surface, one for each ray: array i of `rays` as above. u and v are 0 if
+  /// they are not wanted.
+  void resolve_all(std::span<const Hit> hits, const Rays& rays, bool with_texture_coordinates,
+                   std::span<SurfacePoint> points) const;
+
   /// A surface as the lanes have it: of kind `other` where only one ray at a time can be asked.
   [[nodiscard]] LaneSurface lane_surface(int surface) const;
 
