@@ -42,7 +42,9 @@ struct AffineNumber {
   }
 };
 
-AffineNumber::AffineNumber(double number) : AffineNumber(Bounds(number)) {}
+AffineNumber::AffineNumber(double number) : AffineNumber(Bounds(number)) {
+  if (std::isfinite(number)) form = Form(number);
+}
 
 AffineNumber::AffineNumber(const Bounds& bounds) : continuity(bounds.continuity) {
   if (bounds.is_undefined()) return;
@@ -51,6 +53,7 @@ AffineNumber::AffineNumber(const Bounds& bounds) : continuity(bounds.continuity)
     return;
   }
   form = without_slope<SingleLane>(bounds.minus_lower, bounds.upper);
+  form.error = form.error + SingleLane(tiny);  // only the tape's constants are without an error
   if (!is_finite()) form = {0.0, 0.0, infinity};
 }
 
@@ -106,6 +109,26 @@ bool has_form(Operation operation, const AffineNumber& a, const AffineNumber& b)
   }
 }
 
+/// The rules for a constant operand (LineKernel has the same for lanes).
+bool apply_to_constant(Operation operation, const AffineNumber& a, const AffineNumber& b, Form& result) {
+  if (operation == Operation::add && b.is_constant()) {
+    result = plus_constant(a.form, b.form.centre);
+  } else if (operation == Operation::add && a.is_constant()) {
+    result = plus_constant(b.form, a.form.centre);
+  } else if (operation == Operation::subtract && b.is_constant()) {
+    result = plus_constant(a.form, -b.form.centre);
+  } else if (operation == Operation::subtract && a.is_constant()) {
+    result = plus_constant(-b.form, a.form.centre);
+  } else if (operation == Operation::multiply && b.is_constant()) {
+    result = times_constant(a.form, b.form.centre);
+  } else if (operation == Operation::multiply && a.is_constant()) {
+    result = times_constant(b.form, a.form.centre);
+  } else {
+    return false;
+  }
+  return true;
+}
+
 bool has_rule(Operation operation) {
   switch (operation) {
     case Operation::add:
@@ -137,7 +160,9 @@ AffineNumber apply<AffineNumber>(Operation operation, const AffineNumber& a, con
   if (a.is_finite() && (!binary || b.is_finite())) {
     if (!has_rule(operation)) return by_mean_value(operation, a, binary ? b : a);
     if (has_form(operation, a, b)) {
-      const AffineNumber result(apply<Form>(operation, a.form, b.form), continuity);
+      Form form;
+      if (!apply_to_constant(operation, a, b, form)) form = apply<Form>(operation, a.form, b.form);
+      const AffineNumber result(form, continuity);
       if (result.is_finite()) return result;
     }
   }

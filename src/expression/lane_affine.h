@@ -47,6 +47,21 @@ struct LaneAffine {
   friend BACKLIGHT_LANES LaneAffine operator/(LaneAffine a, LaneAffine b) { return a * inverse(b); }
 };
 
+// With a constant, for which these are the law: there is less to be rounded.
+template <class V>
+BACKLIGHT_LANES LaneAffine<V> plus_constant(LaneAffine<V> a, V number) {
+  const V centre = a.centre + number;
+  return {centre, a.slope, a.error + V(rounding_unit) * magnitude(centre)};
+}
+template <class V>
+BACKLIGHT_LANES LaneAffine<V> times_constant(LaneAffine<V> a, V number) {
+  const V centre = a.centre * number;
+  const V slope = a.slope * number;
+  return {
+      centre, slope,
+      (a.error * magnitude(number) + V(rounding_unit) * (magnitude(centre) + magnitude(slope))) + V(tiny)};
+}
+
 /// How far a form goes from its centre.
 template <class V>
 BACKLIGHT_LANES V radius(LaneAffine<V> a) {
@@ -99,7 +114,7 @@ BACKLIGHT_LANES LaneAffine<V> square(LaneAffine<V> a) {
 template <class V>
 BACKLIGHT_LANES LaneAffine<V> integer_power(LaneAffine<V> a, LaneAffine<V> exponent) {
   const auto n = static_cast<unsigned>(exponent.centre.v[0]);  // a constant: the same in all lanes
-  if (n == 0) return LaneAffine<V>(1.0);
+  if (n == 0) return {V(1.0), V(0.0), V(tiny)};
   LaneAffine<V> power = a;
   unsigned rest = n;
   for (; (rest & 1U) == 0; rest >>= 1U) power = square(power);

@@ -94,6 +94,12 @@ BACKLIGHT_LANES N chain(N a, N a_slope, N b_slope, N along_a, N along_b, bool a_
   }
 }
 
+/// Number types that have rules of their own for constant operands.
+template <class N>
+inline constexpr bool knows_constants = false;
+template <class V>
+inline constexpr bool knows_constants<LaneAffine<V>> = true;
+
 template <class N, class V, bool with_slope>
 class LineKernel {
  public:
@@ -101,6 +107,9 @@ class LineKernel {
     for (std::size_t i = 0; i < work.step_count; ++i) {
       const LineProgram::Step& step = work.steps[i];
       double* const out = at(work, step.out);
+      if constexpr (knows_constants<N>) {
+        if ((step.constant_a || step.constant_b) && with_constant(work, step, out)) continue;
+      }
       switch (step.operation) {
         case Operation::constant:
           constant(work, work.constants[step.a], out);
@@ -143,6 +152,32 @@ class LineKernel {
   }
 
  private:
+  /// An operation of a constant and a form; false: there is no rule for it.
+  static BACKLIGHT_LANES bool with_constant(const LineWork& work, const LineProgram::Step& step,
+                                            double* out) {
+    const double* const form = at(work, step.constant_b ? step.a : step.b);
+    const V number(*at(work, step.constant_b ? step.b : step.a));
+    const auto all = [&](const auto& rule) {
+      for (std::size_t k = 0; k < work.stride; k += V::width) {
+        N a;
+        load(form + k, work.stride, a);
+        store(out + k, work.stride, rule(a));
+      }
+      return true;
+    };
+    switch (step.operation) {
+      case Operation::add:
+        return all([&](N a) { return plus_constant(a, number); });
+      case Operation::subtract:
+        if (step.constant_b) return all([&](N a) { return plus_constant(a, -number); });
+        return all([&](N a) { return plus_constant(-a, number); });
+      case Operation::multiply:
+        return all([&](N a) { return times_constant(a, number); });
+      default:
+        return false;
+    }
+  }
+
   static BACKLIGHT_LANES std::size_t values(const LineWork& work) {
     return Components<N>::count * work.stride;
   }

@@ -141,8 +141,37 @@ void take(const Run& run, LineBatch& lines, std::size_t count, std::size_t wante
   }
 }
 
-/// Where one line of a batch is in trouble, each is asked by itself: what is found of a line never depends on
-/// the others.
+void copy_question(LineBatch& from, std::size_t i, LineBatch& to, std::size_t k) {
+  for (std::size_t v = 0; v < LineBatch::most_variables; ++v) {
+    to.origin(v)[k] = from.origin(v)[i];
+    to.direction(v)[k] = from.direction(v)[i];
+  }
+  to.from()[k] = from.from()[i];
+  to.to()[k] = from.to()[i];
+}
+
+void copy_answer(LineBatch& from, std::size_t k, LineBatch& to, std::size_t i) {
+  for (auto array : {&LineBatch::lower, &LineBatch::upper, &LineBatch::slope_lower, &LineBatch::slope_upper,
+                     &LineBatch::continuity}) {
+    (to.*array)()[i] = (from.*array)()[k];
+  }
+}
+
+/// Lines [first, last) by themselves; false: some line was in trouble.
+bool enclose_apart(const LineProgram& program, LineBatch& lines, std::size_t first, std::size_t last,
+                   std::vector<double>& workspace, Question question) {
+  LineBatch apart(LineBatch::padding);
+  for (std::size_t i = first; i < last; ++i) copy_question(lines, i, apart, i - first);
+  fill_up(apart, last - first);
+  Run run(program, apart, workspace);
+  if (!run.bounds(question, LineBatch::padding)) return false;
+  take(run, apart, LineBatch::padding, last - first, question);
+  for (std::size_t i = first; i < last; ++i) copy_answer(apart, i - first, lines, i);
+  return true;
+}
+
+/// Where one line of a batch is in trouble, a few and then each are asked by themselves: what is found of a
+/// line never depends on the others.
 void enclose_lines(const LineProgram& program, LineBatch& lines, std::size_t count,
                    std::vector<double>& workspace, Question question) {
   if (count == 0) return;
@@ -152,24 +181,13 @@ void enclose_lines(const LineProgram& program, LineBatch& lines, std::size_t cou
     take(run, lines, padded(count), count, question);
     return;
   }
-  LineBatch alone(LineBatch::padding);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t v = 0; v < LineBatch::most_variables; ++v) {
-      alone.origin(v)[0] = lines.origin(v)[i];
-      alone.direction(v)[0] = lines.direction(v)[i];
-    }
-    alone.from()[0] = lines.from()[i];
-    alone.to()[0] = lines.to()[i];
-    fill_up(alone, 1);
-    Run single(program, alone, workspace);
-    if (!single.bounds(question, LineBatch::padding)) {
-      enclose_carefully(program, lines, i, question);
-      continue;
-    }
-    take(single, alone, LineBatch::padding, 1, question);
-    for (auto array : {&LineBatch::lower, &LineBatch::upper, &LineBatch::slope_lower, &LineBatch::slope_upper,
-                       &LineBatch::continuity}) {
-      (lines.*array)()[i] = (alone.*array)()[0];
+  for (std::size_t few = 0; few < count; few += LineBatch::padding) {
+    const std::size_t end = std::min(count, few + LineBatch::padding);
+    if (enclose_apart(program, lines, few, end, workspace, question)) continue;
+    for (std::size_t i = few; i < end; ++i) {
+      if (!enclose_apart(program, lines, i, i + 1, workspace, question)) {
+        enclose_carefully(program, lines, i, question);
+      }
     }
   }
 }
@@ -180,6 +198,7 @@ LineBatch::LineBatch(std::size_t capacity) : capacity_(padded(capacity)), number
 
 LineProgram::LineProgram(const Tape& tape, LineWidth width) : tape_(tape), width_(width) {
   std::vector<bool> changes(tape.registers, false);
+  std::vector<bool> constant(tape.registers, false);
   steps_.reserve(tape.instructions.size());
   for (const Instruction& step : tape.instructions) {
     LineProgram::Step line{step.operation, false, false, step.out, step.a, step.b};
@@ -191,8 +210,11 @@ LineProgram::LineProgram(const Tape& tape, LineWidth width) : tape_(tape), width
     } else {
       line.slope_a = changes[step.a];
       line.slope_b = info(step.operation).operands == 2 && changes[step.b];
+      line.constant_a = constant[step.a];
+      line.constant_b = info(step.operation).operands == 2 && constant[step.b];
       changes[step.out] = line.slope_a || line.slope_b;
     }
+    constant[step.out] = step.operation == Operation::constant;
     steps_.push_back(line);
   }
 }

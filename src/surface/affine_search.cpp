@@ -25,6 +25,9 @@ constexpr double close_part = 0.5;
 
 constexpr int most_polish_steps = 60;
 
+/// A line on which f has no form over this part of it is RootWalk's.
+constexpr double coarsest = 0x1p-7;
+
 /// The sign of all numbers in the interval, or 0.
 int sign_of(double lower, double upper) {
   return lower > 0.0 ? 1 : upper < 0.0 ? -1 : 0;
@@ -34,8 +37,9 @@ int sign_of(double lower, double upper) {
 struct Traveller {
   std::size_t piece;
   double begin, end;
-  double limit;  ///< the end of the line
-  double least;  ///< pieces are not made shorter
+  double limit;   ///< the end of the line
+  double least;   ///< pieces are not made shorter
+  double coarse;  ///< nor those without a form made shorter than half of this
   int steps = 0;
 };
 
@@ -107,8 +111,12 @@ class FormSearch {
     const LinePiece& piece = pieces_[i];
     double size = std::max(std::abs(piece.from), std::abs(piece.to));
     for (std::size_t v = 0; v < 3; ++v) size = std::max(size, std::abs(piece.origin[v]));
-    return {i, piece.from, piece.from + first_part * (piece.to - piece.from), piece.to,
-            16.0 * epsilon * size};
+    return {i,
+            piece.from,
+            piece.from + first_part * (piece.to - piece.from),
+            piece.to,
+            16.0 * epsilon * size,
+            coarsest * (piece.to - piece.from)};
   }
 
   /// Puts the next line that there is into a slot.
@@ -134,48 +142,67 @@ class FormSearch {
     return true;
   }
 
-  void walk(std::size_t i) { roots_[i] = walked_root(f_, pieces_[i], work_); }
+  /// Leaves the line to RootWalk; false, as it needs no more forms.
+  bool walk(std::size_t i) {
+    roots_[i] = walked_root(f_, pieces_[i], work_);
+    return false;
+  }
+
+  /// What a form over a line's piece said.
+  struct Answer {
+    double first, last, sign, continuity;
+  };
 
   /// One form for each line on its way. From the last to the first, so that what takes a free slot has been
   /// looked at.
   void march() {
     const std::size_t count = m_.on_the_way.size();
-    program_.enclose_zeros(m_.march, count, m_.workspace);
+    LineBatch& batch = m_.march;
+    program_.enclose_zeros(batch, count, m_.workspace);
     work_.forms += count;
+    double* const from = batch.from();
+    double* const to = batch.to();
+    const double* const first = batch.first_zero();
+    const double* const last = batch.last_zero();
+    const double* const sign = batch.sign();
+    const double* const continuity = batch.continuity();
+    Traveller* const lines = m_.on_the_way.data();
     for (std::size_t k = count; k-- > 0;) {
-      Traveller& line = m_.on_the_way[k];
-      if (step(line, k)) {
-        m_.march.from()[k] = line.begin;
-        m_.march.to()[k] = line.end;
+      if (step(lines[k], {first[k], last[k], sign[k], continuity[k]})) {
+        from[k] = lines[k].begin;
+        to[k] = lines[k].end;
       } else if (!start_next(k)) {
-        line = m_.on_the_way.back();
+        lines[k] = m_.on_the_way.back();
         m_.on_the_way.pop_back();
-        if (k < m_.on_the_way.size()) put_on(m_.march, k, line);
+        if (k < m_.on_the_way.size()) put_on(batch, k, lines[k]);
       }
     }
   }
 
   /// False: the line needs no more forms, for now or for ever.
-  bool step(Traveller& line, std::size_t k) {
-    if (m_.march.continuity()[k] != 0.0 || ++line.steps > most_steps_) {
-      walk(line.piece);
-      return false;
-    }
-    const double first = m_.march.first_zero()[k];
-    const double last = m_.march.last_zero()[k];
+  bool step(Traveller& line, const Answer& zeros) {
     const double length = line.end - line.begin;
-    if (first > last) return advance(line, line.end, growth * length);
-    const int sign_before = m_.march.sign()[k] > 0.0 ? 1 : -1;
-    if (last < line.end) {
-      const bool left = first > line.begin;
-      if (last - first > close_part * length) return shorten(line, first, 0.5 * (last - first));
-      Bracket bracket{line, left ? sign_before : 0, -sign_before, line.end, length};
-      bracket.line.begin = first;
-      bracket.line.end = last;
-      m_.brackets.push_back(bracket);
-      return false;
+    if (zeros.first > zeros.last && zeros.continuity == 0.0 && ++line.steps <= most_steps_) {
+      return advance(line, line.end, growth * length);
     }
-    return shorten(line, first, first - line.begin > good_part * length ? length : 0.5 * length);
+    if (line.steps > most_steps_ || ++line.steps > most_steps_) return walk(line.piece);
+    if (zeros.continuity != 0.0) {
+      ++work_.without_form;
+      // There may be a form of half the piece.
+      return length > line.coarse ? shorten(line, line.begin, 0.5 * length) : walk(line.piece);
+    }
+    if (!(zeros.last < line.end)) {
+      const double left = zeros.first - line.begin;
+      return shorten(line, zeros.first, left > good_part * length ? length : 0.5 * length);
+    }
+    const double room = zeros.last - zeros.first;
+    if (room > close_part * length) return shorten(line, zeros.first, 0.5 * room);
+    const int sign_before = zeros.sign > 0.0 ? 1 : -1;
+    Bracket bracket{line, zeros.first > line.begin ? sign_before : 0, -sign_before, line.end, length};
+    bracket.line.begin = zeros.first;
+    bracket.line.end = zeros.last;
+    m_.brackets.push_back(bracket);
+    return false;
   }
 
   static bool advance(Traveller& line, double to, double length) {
@@ -186,9 +213,7 @@ class FormSearch {
   }
 
   bool shorten(Traveller& line, double begin, double length) {
-    if (length > line.least) return advance(line, begin, length);
-    walk(line.piece);
-    return false;
+    return length > line.least ? advance(line, begin, length) : walk(line.piece);
   }
 
   void wait(Traveller line, double begin, double length) {

@@ -63,12 +63,13 @@ inline bool found(const Root& root) {
 
 /// How much work a search was; for the choice between searches, tests and charts.
 struct RootWork {
-  std::size_t cells = 0;     ///< pieces of the line over which f and its slope were enclosed
-  std::size_t points = 0;    ///< points at which f was enclosed
-  std::size_t polish = 0;    ///< evaluations of f and its slope in double precision
-  std::size_t forms = 0;     ///< pieces over which f was enclosed by an affine form
-  std::size_t walked = 0;    ///< all of these that were done one line at a time, by RootWalk
-  std::size_t given_up = 0;  ///< lines that were left to RootWalk
+  std::size_t cells = 0;         ///< pieces of the line over which f and its slope were enclosed
+  std::size_t points = 0;        ///< points at which f was enclosed
+  std::size_t polish = 0;        ///< evaluations of f and its slope in double precision
+  std::size_t forms = 0;         ///< pieces over which f was enclosed by an affine form
+  std::size_t without_form = 0;  ///< those of them where there was none
+  std::size_t walked = 0;        ///< all of these that were done one line at a time, by RootWalk
+  std::size_t given_up = 0;      ///< lines that were left to RootWalk
   /// Such lines are counted, and have no root. Lines of more than 200 pieces are among them.
   bool only_count = false;
 };

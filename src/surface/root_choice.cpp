@@ -18,6 +18,9 @@ constexpr EvaluationCosts for_each_answer{60.0, 60.0, 40.0, 40.0};
 /// A line that is given up costs as much as this many evaluations over a piece, one line at a time.
 constexpr double cost_of_walk = 1000.0;
 
+/// A form that does not exist is found out one line at a time, and delays its neighbours: so many forms.
+constexpr double cost_of_no_form = 60.0;
+
 EvaluationCosts operator+(const EvaluationCosts& a, const EvaluationCosts& b) {
   return {a.piece + b.piece, a.point + b.point, a.number + b.number, a.form + b.form};
 }
@@ -92,6 +95,7 @@ double cost_of(const RootWork& work, const EvaluationCosts& costs) {
   const EvaluationCosts each = costs + for_each_answer;
   return static_cast<double>(work.cells) * each.piece + static_cast<double>(work.points) * each.point +
          static_cast<double>(work.polish) * each.number + static_cast<double>(work.forms) * each.form +
+         static_cast<double>(work.without_form) * cost_of_no_form * costs.form +
          static_cast<double>(work.given_up) * cost_of_walk * costs.piece;
 }
 

@@ -67,6 +67,8 @@ class LineProgram {
     bool slope_a;  ///< whether the operand changes along the line
     bool slope_b;
     std::uint32_t out, a, b;  ///< as in Instruction
+    bool constant_a = false;  ///< whether the operand is a constant of the tape
+    bool constant_b = false;
   };
 
   /// Of a tape with at most LineBatch::most_variables variables.
