@@ -34,7 +34,8 @@ struct Crossings {
 };
 
 /// Which crossings are wanted. `first`: solvers may leave out those with λ <= lambda_min, and those behind
-/// the first of the others; what they do report is the same to the last bit. `all`: the whole line.
+/// the first of the others; what they report is the same to the last bit however many lines are asked
+/// together. `all`: the whole line; they may differ from the first ones by rounding.
 enum class Wanted { first, all };
 
 /// A point put onto the surface, in local coordinates. The gradient points outward and has any length.

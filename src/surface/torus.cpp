@@ -8,6 +8,9 @@
 // nothing to miss. (Isolation by the derivative's roots: C. Yuksel, "High-performance polynomial root finding
 // for graphics", 2022.)
 //
+// The first root of many lines is found over lanes (torus_lanes.h), by the same equations. A solid's parts
+// want all roots: those are found here, one line at a time.
+//
 // F itself loses digits on thin tubes; signs and roots are taken from the distance form
 //     g(t) = (ρ - R)² + y² - r²,  ρ = √(x²+z²),
 // which is F divided by (ρ + R)² + y² - r² > 0 (as r < R), and is right to rounding of the coordinates.
@@ -16,6 +19,7 @@
 #include <numbers>
 
 #include "shape_table.h"
+#include "torus_lanes.h"
 
 namespace backlight {
 namespace {
@@ -130,7 +134,7 @@ bool clip(const LocalLine& line, double major, double minor, double& low, double
   return low < high;
 }
 
-Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
+Crossings all_crossings(const Shape& shape, const LocalLine& line) {
   const double major = shape.values[0];
   const double minor = shape.values[1];
   Crossings result;
@@ -150,15 +154,60 @@ Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_
   bool inside = false;
   for (int i = 1; i < cuts.count; ++i) {
     const bool inside_next = i + 1 < cuts.count && torus.value(cuts.t[i]) <= 0.0;
-    if (inside_next != inside && (wanted == Wanted::all || line.lambda(cuts.t[i]) > lambda_min)) {
-      const double t = bracketed_root(torus, cuts.t[i - 1], cuts.t[i], inside, size);
-      result.add(t, 0);
-      if (wanted == Wanted::first && line.lambda(t) > lambda_min) {
-        break;
-      }
+    if (inside_next != inside) {
+      result.add(bracketed_root(torus, cuts.t[i - 1], cuts.t[i], inside, size), 0);
     }
     inside = inside_next;
   }
+  return result;
+}
+
+TorusKernel widest_kernel() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") != 0) return torus_roots_avx2;
+#endif
+  return torus_roots_baseline;
+}
+
+/// Up to TorusLines::most lines. The spare lanes do what the last line does.
+void first_of_some(const Shape& shape, std::span<const LocalLine> lines, double lambda_min,
+                   std::span<Crossings> results) {
+  static const TorusKernel kernel = widest_kernel();
+  thread_local TorusLines batch;
+  const std::size_t padded = (lines.size() + 3) / 4 * 4;
+  for (std::size_t k = 0; k < padded; ++k) {
+    const LocalLine& line = lines[std::min(k, lines.size() - 1)];
+    for (int axis = 0; axis < 3; ++axis) {
+      batch.point[axis][k] = line.point[axis];
+      batch.direction[axis][k] = line.direction[axis];
+    }
+    batch.start[k] = (lambda_min - line.lambda_centre - line.lambda_shift) / line.lambda_per_length;
+  }
+  kernel(batch, padded, shape.values[0], shape.values[1]);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    results[k] = {};
+    const double t = batch.root[k];
+    if (!(t < infinite)) continue;
+    if (lines[k].lambda(t) > lambda_min) {
+      results[k].add(t, 0);
+    } else {  // a root at the very start
+      results[k] = all_crossings(shape, lines[k]);
+    }
+  }
+}
+
+void first_crossings_of(const Shape& shape, std::span<const LocalLine> lines, double lambda_min,
+                        std::span<Crossings> results) {
+  for (std::size_t first = 0; first < lines.size(); first += TorusLines::most) {
+    const std::size_t count = std::min(TorusLines::most, lines.size() - first);
+    first_of_some(shape, lines.subspan(first, count), lambda_min, results.subspan(first, count));
+  }
+}
+
+Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
+  if (wanted == Wanted::all) return all_crossings(shape, line);
+  Crossings result;
+  first_crossings_of(shape, {&line, 1}, lambda_min, {&result, 1});
   return result;
 }
 
@@ -215,9 +264,9 @@ RootFinder finder_of(const Shape& /*shape*/) {
 
 }  // namespace
 
-const ShapeMethods torus_methods{ShapeKind::torus, "torus",     true,         problem_of,
-                                 bounding_radius,  half_extent, crossings_of, point_of,
-                                 nullptr,          nullptr,     finder_of,    points_of};
+const ShapeMethods torus_methods{ShapeKind::torus, "torus",      true,     problem_of, bounding_radius,
+                                 half_extent,      crossings_of, point_of, nullptr,    first_crossings_of,
+                                 finder_of,        points_of};
 
 Shape torus(double major, double minor) {
   return {ShapeKind::torus, {major, minor}, {}};
