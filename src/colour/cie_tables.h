@@ -504,7 +504,7 @@ inline constexpr std::array<double, 95> d65_by_5_nm{{
 
 /// Illuminant D65 between 360 and 830 nm, 1 at 560 nm: the table, interpolated linearly as the CIE asks.
 constexpr double d65_in_table(double nm) {
-  const double position = (nm - first_nm) / 5.0;
+  const double position = (nm - first_nm) * 0.2;
   const int cell = position >= 93.0 ? 93 : static_cast<int>(position);
   const double fraction = position - cell;
   const auto at = [](int i) { return d65_by_5_nm[static_cast<std::size_t>(i)]; };

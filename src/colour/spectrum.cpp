@@ -182,6 +182,19 @@ double Spectrum::at(double nm) const {
 }
 
 void Spectrum::evaluate(const double* nm, int n, double* out) const {
+  if (kind_ == Kind::d65) {
+    // The test of where each is, apart from the look-up in the table: most are in it.
+    bool all_inside = true;
+    for (int i = 0; i < n; ++i) {
+      const double at = nm[i];
+      all_inside &= (at >= cie::first_nm) & (at <= cie::last_nm);
+      out[i] = scale_ * cie::d65_in_table(std::clamp(at, double{cie::first_nm}, double{cie::last_nm}));
+    }
+    for (int i = 0; i < n && !all_inside; ++i) {
+      if (!(nm[i] >= cie::first_nm && nm[i] <= cie::last_nm)) out[i] = scale_ * d65_at(nm[i]);
+    }
+    return;
+  }
   visit([nm, n, out](const auto& value_at) {
     for (int i = 0; i < n; ++i) out[i] = value_at(nm[i]);
   });

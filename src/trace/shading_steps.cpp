@@ -62,7 +62,7 @@ void add_spectrum(const Light& light, DopplerFactor<Rest, Source> doppler, doubl
   light.colour.spectrum.evaluate(s.at_light.data(), n, s.lamp.data());
   const double density = irradiance * wavelength_density_factor(doppler);
   for (std::size_t i = 0; i < s.wavelengths.size(); ++i) {
-    s.radiance[i] += density * s.lamp[i] * (s.reflectance[i] / std::numbers::pi + specular);
+    s.radiance[i] += density * s.lamp[i] * (s.reflectance[i] * std::numbers::inv_pi + specular);
   }
 }
 
