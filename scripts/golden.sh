@@ -34,6 +34,7 @@ for scene in scenes/*.toml tests/golden/scenes/*.toml; do
   name=$(basename "$scene" .toml)
   case $name in
     street-lamp-flicker) render "$scene" "$name.####.exr" 64x36 -f 1-2 ;;  # by the lamp's own clock
+    rocket) render "$scene" "$name.####.exr" 64x36 -f 61,121 ;;  # on its way, and at 0.96 c
     *) render "$scene" "$name.exr" ;;
   esac
 done

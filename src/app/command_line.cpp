@@ -174,6 +174,13 @@ void add_film_flags(CLI::App& app, ImageRequest& request, RenderOptions& options
       ->group(group);
 }
 
+std::vector<std::pair<std::string, ToneCurve>> tone_curves() {
+  return {{"none", ToneCurve::none},
+          {"drago", ToneCurve::drago},
+          {"reinhard", ToneCurve::reinhard},
+          {"log", ToneCurve::logarithmic}};
+}
+
 void add_output_flags(CLI::App& app, RenderOptions& options) {
   const char* group = "Output";
   add_value(app, "-o,--output", "PATTERN",
@@ -182,7 +189,24 @@ void add_output_flags(CLI::App& app, RenderOptions& options) {
             "Default: the scene's name with .exr in the current folder. Folders are made",
             OutputPattern::parse, [&options](OutputPattern pattern) { options.output = std::move(pattern); })
       ->group(group);
-  add_flag(app, "--png", options.png, "write a PNG to look at beside each EXR")->group(group);
+  CLI::Option* png = add_flag(app, "--png", options.png, "write a PNG to look at beside each EXR");
+  png->group(group);
+  add_value(
+      app, "--tone", "CURVE",
+      "of the PNGs, the same for all: none (the default: light beyond white is cut), drago, reinhard, log; "
+      "view chooses by itself and prints what",
+      choice<ToneCurve>(tone_curves()), [&options](ToneCurve curve) { options.display.tone = curve; })
+      ->needs(png)
+      ->group(group);
+  add_value(app, "--exposure", "STOPS", "of the PNGs: brighten by a factor of 2 a stop, negative darkens",
+            parse_number, [&options](double stops) { options.display.exposure_stops = stops; })
+      ->needs(png)
+      ->group(group);
+  add_value(app, "--white", "L",
+            "of the PNGs: luminance that the curve shows as white, after exposure; default 1000",
+            parse_number, [&options](double white) { options.display.white = white; })
+      ->needs(png)
+      ->group(group);
   add_value(app, "--stats", "FILE",
             "write one JSON object for each image, a line each: time, rays, pixels that are not finite... "
             "(- for standard output)",
@@ -274,6 +298,8 @@ Parser render_parser() {
     RenderOptions options = state->options;
     if (state->half && state->single) throw CLI::ValidationError("--half", "not together with --float");
     if (options.frames && options.time) throw CLI::ValidationError("--time", "not together with --frames");
+    if (!(options.display.white > 0.0))
+      throw CLI::ValidationError("--white", "expected a number greater than 0");
     if (state->single) options.storage = ColourStorage::always_float;
     options.skip_existing |= options.resume || options.claim;
     options.scene = state->scene.scene();
@@ -369,6 +395,10 @@ Parser compare_parser() {
       "write a report: one page that needs nothing else, with both pictures, where they differ, and how "
       "to render the worst pixel again",
       parse_text, [state](std::string file) { state->options.html = file; })
+      ->group("What to do");
+  add_value(app, "--scenes", "FOLDER",
+            "where the scenes of the images are, for the command lines that render a pixel again", parse_text,
+            [state](std::string folder) { state->options.scenes = folder; })
       ->group("What to do");
   add_flag(app, "--update", state->options.update,
            "put new images in the places of the references that they differ from, and print which")

@@ -150,12 +150,12 @@ std::string outcome_text(const CompareOutcome& outcome, bool brief) {
   return brief ? text : text + channel_table(difference);
 }
 
-std::string render_again(const ExrPicture& picture, int x, int y) {
+std::string render_again(const ExrPicture& picture, int x, int y, const std::filesystem::path& scenes) {
   const ExrHeader& header = picture.header;
   const ImageLayout& layout = picture.image.layout();
   const auto* scene = header.find<std::string>("backlight/scene");
   if (scene == nullptr) return {};
-  std::string command = "backlight render " + shell_word(*scene);
+  std::string command = "backlight render " + shell_word((scenes / *scene).string());
   for (const std::string& text : attribute(header, "backlight/overrides", std::vector<std::string>{})) {
     command += " -D " + shell_word(text);
   }

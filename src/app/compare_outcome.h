@@ -39,6 +39,6 @@ std::string outcome_text(const CompareOutcome& outcome, bool brief);
 
 /// The command line that renders pixel (x, y) of the image again, or all of it where x < 0: from the file's
 /// header. Empty if that does not say which scene it is of.
-std::string render_again(const ExrPicture& picture, int x, int y);
+std::string render_again(const ExrPicture& picture, int x, int y, const std::filesystem::path& scenes);
 
 }  // namespace backlight

@@ -104,7 +104,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 }  // namespace
 
-CompareReport::CompareReport(const CompareOptions& options) {
+CompareReport::CompareReport(const CompareOptions& options) : scenes_(options.scenes) {
   Members members;
   members.text("program", "Backlight " BACKLIGHT_VERSION);
   members.text("reference", options.reference.string());
@@ -128,7 +128,8 @@ Result<void> CompareReport::add(const CompareOutcome& outcome) {
     members.number("width", data.width());
     members.number("height", data.height());
     if (const auto* frame = shown->header.find<double>("backlight/frame")) members.number("frame", *frame);
-    if (const std::string again = render_again(*shown, -1, -1); !again.empty()) members.text("again", again);
+    if (const std::string again = render_again(*shown, -1, -1, scenes_); !again.empty())
+      members.text("again", again);
   }
   if (outcome.difference) {
     const ImageDifference& difference = *outcome.difference;

@@ -22,6 +22,7 @@ class CompareReport {
   Result<void> write(const std::filesystem::path& path) const;
 
  private:
+  std::filesystem::path scenes_;
   std::string head_;    // the members of the page's data before its images
   std::string images_;  // JSON objects with commas between
 };

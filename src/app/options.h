@@ -36,7 +36,8 @@ struct RenderOptions {
   std::optional<PixelBox> crop;
   ColourStorage storage = ColourStorage::automatic;
   bool png = false;
-  int threads = 0;  ///< 0: usable_threads()
+  DisplayTransform display;  ///< of the PNGs
+  int threads = 0;           ///< 0: usable_threads()
   ProgressStyle progress = ProgressStyle::automatic;
   Verbosity verbosity = Verbosity::normal;
   std::filesystem::path statistics;  ///< empty: none
@@ -62,8 +63,9 @@ struct CompareOptions {
   std::filesystem::path reference;  ///< file or folder
   std::filesystem::path now;        ///< the same
   CompareLimits limits;
-  std::filesystem::path html;  ///< report to write; empty: none
-  bool update = false;         ///< the new images take the places of references that they differ from
+  std::filesystem::path html;    ///< report to write; empty: none
+  std::filesystem::path scenes;  ///< folder of the scenes, whose files' names alone are in the images
+  bool update = false;           ///< the new images take the places of references that they differ from
   Verbosity verbosity = Verbosity::normal;
 };
 

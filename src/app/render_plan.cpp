@@ -41,9 +41,9 @@ std::string quoted(const std::string& argument) {
 constexpr std::array flags_of_the_run{"--png",     "--skip-existing", "--no-clobber", "--resume", "--claim",
                                       "--dry-run", "--list-frames",   "-q",           "--quiet",  "-v",
                                       "--verbose"};
-constexpr std::array values_of_the_run{"-o",       "--output", "-f",         "--frames",        "--time",
-                                       "--crop",   "--stats",  "--progress", "--claim-expires", "-t",
-                                       "--threads"};
+constexpr std::array values_of_the_run{"-o",        "--output", "-f",         "--frames",        "--time",
+                                       "--crop",    "--stats",  "--progress", "--claim-expires", "-t",
+                                       "--threads", "--tone",   "--exposure", "--white"};
 
 template <class Names>
 bool is_among(const Names& names, std::string_view name) {

@@ -347,7 +347,7 @@ Result<void> RenderRun::complete_png(const PlannedImage& image) const {
   if (image.png.empty() || std::filesystem::exists(image.png, error)) return {};
   const auto picture = read_exr(image.exr);
   if (!picture.ok()) return picture.failure();
-  const auto displayed = display_image(picture.value().image, DisplayTransform{});
+  const auto displayed = display_image(picture.value().image, options_.display);
   if (!displayed.ok()) return displayed.failure();
   return write_png(image.png, displayed.value().pixels);
 }

@@ -32,10 +32,14 @@ void check_parameters(ImageValues& values) {
   for (const std::size_t i : values.description.parameter_order) {
     const Entry* entry = find(parameters->node, values.description.variables[i]);
     if (entry == nullptr || std::isfinite(values.variables[i])) continue;
-    values.error(entry->node.place,
-                 "the parameter '" + entry->name + "' is " + number_text(values.variables[i]) +
-                     " at t = " + number_text(values.variables[0]) + ", which is not a finite number");
+    const auto* expression = std::get_if<Expression>(&entry->node.value);
+    const bool by_another = expression != nullptr && values.uses_wrong_variable(*expression);
+    if (!by_another)
+      values.error(entry->node.place,
+                   "the parameter '" + entry->name + "' is " + number_text(values.variables[i]) +
+                       " at t = " + number_text(values.variables[0]) + ", which is not a finite number");
     values.variables[i] = 0.0;
+    values.wrong_variables.push_back(i);
   }
 }
 

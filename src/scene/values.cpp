@@ -68,6 +68,9 @@ std::optional<double> TableView::evaluated(const Node& node, const Key& key) con
   if (const auto* number = std::get_if<double>(&node.value)) {
     value = *number;
   } else if (const auto* expression = std::get_if<Expression>(&node.value)) {
+    // Any number that is allowed: what is found wrong with this one would be the parameter's fault.
+    if (values_->uses_wrong_variable(*expression))
+      return std::clamp(1.0, key.range.least, key.range.greatest);
     value = expression->evaluate(values_->variables);
   } else {
     return std::nullopt;

@@ -1,6 +1,7 @@
 // A description's tables, read with their expressions evaluated for one image.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -20,6 +21,13 @@ struct ImageValues {
   std::vector<double> variables;  ///< t, frame, parameters
   Diagnostics& diagnostics;
   std::vector<Dual> rates = {};  ///< the same with their derivatives by t; empty where nothing can move
+  std::vector<std::size_t> wrong_variables = {};  ///< parameters that are no numbers: reported, and 0
+
+  /// What is made of them is not complained about besides.
+  [[nodiscard]] bool uses_wrong_variable(const Expression& expression) const {
+    return std::any_of(wrong_variables.begin(), wrong_variables.end(),
+                       [&](std::size_t i) { return expression.uses(i); });
+  }
 
   void error(const Place& place, std::string message, std::string hint = {}) {
     diagnostics.error(description.span(place), std::move(message), std::move(hint));

@@ -142,6 +142,8 @@ TEST_F(Compare, TellsHowToRenderThePixelAgain) {
   const std::string command =
       "backlight render scene.toml -D camera.fov=40 -f 2 -r 24x16 -s 3 --seed 5 --aov P,Z";
   EXPECT_NE(report.find("\"again\":\"" + command + "\""), std::string::npos);
+  expect(1, {"compare", "ref.0002.exr", "new.0002.exr", "--html", "far.html", "--scenes", "../shots"}, {});
+  EXPECT_NE(read("far.html").find("backlight render ../shots/scene.toml -D"), std::string::npos);
   expect(0,
          {"render", "scene.toml", "-D", "camera.fov=40", "-f", "2", "-r", "24x16", "-s", "3", "--seed", "5",
           "--aov", "P,Z", "-o", "whole.exr"},

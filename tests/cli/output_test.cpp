@@ -271,6 +271,32 @@ TEST_F(Output, IsToldByInfoAndShownByView) {
   EXPECT_EQ(sheet.substr(16, 8), std::string("\0\0\0\x40\0\0\0\x28", 8));
 }
 
+TEST_F(Output, PngIsShownAsViewShowsIt) {
+  write_scene();
+  const std::vector<std::string> shown{"--tone", "reinhard", "--exposure", "1.5", "--white", "4"};
+  std::vector<std::string> render{"scene.toml", "--png"};
+  std::vector<std::string> view{"view", "scene.exr", "-o", "view.png"};
+  render.insert(render.end(), shown.begin(), shown.end());
+  view.insert(view.end(), shown.begin(), shown.end());
+  expect_success(render);
+  expect_success(view);
+  EXPECT_EQ(read("scene.png"), read("view.png"));
+  expect_success({"scene.toml", "--png"});
+  EXPECT_NE(read("scene.png"), read("view.png"));
+  EXPECT_EQ(run({"scene.toml", "--tone", "drago"}).code, 2);
+  EXPECT_EQ(run({"scene.toml", "--png", "--white", "0"}).code, 2);
+}
+
+TEST_F(Output, StatisticsTellWhatWasReused) {
+  write_scene("scene.toml", animation);
+  expect_success({"scene.toml", "--stats", "s.json", "-f", "1-3"});
+  const std::string lines = read("s.json");
+  EXPECT_NE(lines.find("\"surfacesReused\":0,"), std::string::npos) << lines;
+  EXPECT_NE(lines.rfind("\"surfacesMade\":0,"), std::string::npos) << lines;
+  const Outcome outcome = run({"scene.toml", "-v", "-f", "1-3"});
+  EXPECT_NE(outcome.err.find("from the first tile to the last"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Output, SchemaIsJson) {
   const Outcome outcome = run({"schema"});
   EXPECT_EQ(outcome.code, 0);

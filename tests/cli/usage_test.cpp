@@ -85,7 +85,7 @@ TEST_F(Usage, WrongLinesAreExplained) {
       {{"scene.toml", "--sampels", "4"}, "unknown option '--sampels'; did you mean '--samples'?", render},
       {{"scene.toml", "--frmes=4"}, "unknown option '--frmes'; did you mean '--frames'?", render},
       {{"scene.toml", "-z"}, "unknown option '-z'", render},
-      {{"scene.toml", "--exposure", "2"}, "'--exposure' is an option of 'backlight view'", render},
+      {{"scene.toml", "--columns", "2"}, "'--columns' is an option of 'backlight view'", render},
       {{"view", "a.exr", "--samples", "2"},
        "'--samples' is an option of 'backlight render'",
        "backlight view --help"},
