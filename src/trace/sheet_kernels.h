@@ -170,9 +170,9 @@ struct KernelsOf {
   }
 
   // The light goes from x₀ - t w, the lamp relative to the occluder's centre at the moment t of emission,
-  // along n' = n + (w·n/(γ+1) - R) w with n = -way: docs/physics.md section 8. Whether that way meets a ball
-  // is a question of signs; the margins are some hundred times the rounding at γ = 30, here and where the law
-  // asks the same: what lies within them is left to the law.
+  // along n' = n + (w·n/(γ+1) - R) w with n = -way: docs/physics.md equation (17a). Whether that way meets a
+  // ball is a question of signs; the margins are some hundred times the rounding at γ = 30, here and where
+  // the law asks the same: what lies within them is left to the law.
   static std::uint64_t sift(const LampTable& table, int which, double time, int first, int last,
                             PointSheet& p) {
     const double w0 = table.celerity[0][which], w1 = table.celerity[1][which], w2 = table.celerity[2][which];
