@@ -28,9 +28,9 @@ struct LaneAffine {
 
   friend BACKLIGHT_LANES LaneAffine operator-(LaneAffine a) { return {-a.centre, -a.slope, a.error}; }
   friend BACKLIGHT_LANES LaneAffine operator+(LaneAffine a, LaneAffine b) {
-    const V centre = a.centre + b.centre;
-    const V slope = a.slope + b.slope;
-    return {centre, slope, (a.error + b.error) + V(rounding_unit) * (magnitude(centre) + magnitude(slope))};
+    const V c = a.centre + b.centre;
+    const V s = a.slope + b.slope;
+    return {c, s, (a.error + b.error) + V(rounding_unit) * (magnitude(c) + magnitude(s))};
   }
   friend BACKLIGHT_LANES LaneAffine operator-(LaneAffine a, LaneAffine b) { return a + -b; }
 
