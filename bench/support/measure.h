@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "backlight/render/render.h"
+#include "backlight/render/wavelength_estimate.h"
 #include "backlight/scene/compile.h"
 
 namespace backlight::bench {

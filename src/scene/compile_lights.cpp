@@ -51,6 +51,7 @@ void compile_light(Compilation& c, const Node& node) {
   const RestPlace place = c.frames.rest_of(table, table.vector("position"));
   light.frame = place.frame;
   light.position = place.position;
+  light.shadows = table.boolean("shadows");
   if (const Node* type = table.node_of("type"); type != nullptr && !type->valid()) return;
   const std::string type = table.text("type");
   if (type == "distant") {

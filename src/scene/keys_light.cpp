@@ -21,6 +21,9 @@ KeyTable light() {
               "strength by the "
               "time of that frame."),
        numbers("position", 3, std::vector<double>{0, 0, 0}, "length", "Where it is."),
+       boolean("shadows", true,
+               "Whether what stands in its way hides it. Without, no shadow rays are traced for it: a fill "
+               "light. An `ambient` light throws none."),
        number("temperature", Nothing{}, "K", "A blackbody's light, of the strength given.", above(0)),
        numbers("color", 3, Nothing{}, "", "Linear red, green, blue (Rec.709), multiplied by the strength.",
                at_least(0)),

@@ -145,8 +145,7 @@ Needs needs_of(const Scene& scene) {
   textures.insert(scene.sky.texture.get());
   textures.erase(nullptr);
   needs.textures = textures.size();
-  needs.shadowing_lights = static_cast<std::size_t>(
-      std::ranges::count_if(scene.lights, [](const Light& l) { return l.kind != LightKind::ambient; }));
+  needs.shadowing_lights = static_cast<std::size_t>(std::ranges::count_if(scene.lights, throws_shadows));
   needs.shadow_rays = needs.surfaces > 0 && needs.shadowing_lights > 0;
   choose_model(scene, needs);
   return needs;

@@ -39,8 +39,10 @@ void for_each_lamp(const ShadingContext& context, const SeenPoint& point, const 
     if (!a) continue;
     const double strength = strength_at(light, a->emission_time, scene.c, scratch.light_variables[i]);
     if (strength == 0.0) continue;
-    ++scratch.counts.shadow;
-    if (is_shadowed(*context.hub, scratch.rays, point.hit, view, a->segment)) continue;
+    if (light.shadows) {
+      ++scratch.counts.shadow;
+      if (is_shadowed(*context.hub, scratch.rays, point.hit, view, a->segment)) continue;
+    }
     const double factor = light.kind == LightKind::distant
                               ? flux_factor(a->doppler, a->gamma, effects.brightness)
                               : radiance_factor(a->doppler, a->gamma, effects.brightness);

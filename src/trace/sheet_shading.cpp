@@ -383,8 +383,10 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
   fill_strength(light, index);
   const int lit = count_lit(p);
   if (lit == 0) return false;
-  scratch_.counts.shadow += static_cast<std::uint64_t>(lit);
-  shadow(index);
+  if (light.shadows) {
+    scratch_.counts.shadow += static_cast<std::uint64_t>(lit);
+    shadow(index);
+  }
   reflection.brightness = lane_brightness(effects.brightness);
   reflection.distant = light.kind == LightKind::distant;
   reflection.gamma = tracer_.hub().lights[index].to_frame[frame()].gamma();

@@ -33,7 +33,7 @@ CullingChoice one_by_one(const Hub& hub) {
 
 CullingChoice for_light(const Light& light, bool in_lanes, const CullingChoice& occluders) {
   CullingChoice choice;
-  if (light.kind == LightKind::ambient) return choice;
+  if (!throws_shadows(light)) return choice;
   choice = occluders;
   if (!in_lanes) {
     choice.method = "one ray at a time";
@@ -65,7 +65,7 @@ TraceStrategy Tracer::strategy() const {
   strategy.rays = "one ray at a time";
   strategy.camera = one_by_one(hub_);
   for (const Light& light : scene_->lights) {
-    strategy.shadows.push_back(light.kind == LightKind::ambient ? CullingChoice{} : one_by_one(hub_));
+    strategy.shadows.push_back(throws_shadows(light) ? one_by_one(hub_) : CullingChoice{});
   }
   return strategy;
 }

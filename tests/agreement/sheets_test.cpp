@@ -225,6 +225,9 @@ stars = { count = 500, seed = 4 }
   const Field all{.spheres = 90, .gamma = 2.0, .width = 60, .height = 40, .more = more};
   expect_the_law(scene_of(all));
   expect_the_law(scene_of(all), three_colours);
+  RenderChoices fill = three_colours;
+  fill.overrides.insert(fill.overrides.end(), {"light.1.shadows=false", "light.2.shadows=false"});
+  expect_the_law(scene_of(all), fill);
 }
 
 // Solids take one ray at a time, after the cones.

@@ -59,6 +59,12 @@ TEST_F(LeastModel, NoShadowRayWhereNoLightThrowsShadows) {
   EXPECT_NE(with["shadowCulling"][1], "none");
 }
 
+TEST_F(LeastModel, ALightWithoutShadowsHasNoShadowRays) {
+  const auto fill = statistics(film + sphere + lamp + "shadows = false\n");
+  EXPECT_EQ(fill["shadowRays"], 0);
+  EXPECT_EQ(fill["shadowCulling"], nlohmann::json::array({"none"}));
+}
+
 TEST_F(LeastModel, NoDataRayWithoutDataChannels) {
   EXPECT_EQ(statistics(film + sphere + lamp)["dataRays"], 0);
 }

@@ -25,7 +25,7 @@ struct Needs {
   std::size_t surfaces = 0;       ///< copies counted
   std::vector<RootSearch> roots;  ///< of all surfaces, in the order of the frames
   std::size_t lights = 0;
-  std::size_t shadowing_lights = 0;  ///< point and distant ones
+  std::size_t shadowing_lights = 0;  ///< for which shadow rays are traced
   std::size_t textures = 0;          ///< distinct images, for which alone OpenImageIO is loaded
   std::size_t stars = 0;
   bool shadow_rays = false;  ///< there are a surface and a light that casts shadows

@@ -83,11 +83,17 @@ struct Light {
   /// distant one; radiance of an ambient one, by the time of the surface's frame. `strength` when it does not
   /// depend on time.
   double strength = 1.0;
+  bool shadows = true;  ///< whether what is in its way hides it; an ambient light's never does
   bool flickers = false;
   Expression strength_of_time;    ///< of variables {t, frame, params...}, when it flickers
   std::vector<double> variables;  ///< the values of its variables for this image; [0] is replaced by own time
                                   ///< in scene seconds
 };
+
+/// Whether shadow rays are traced for it.
+inline bool throws_shadows(const Light& light) {
+  return light.shadows && light.kind != LightKind::ambient;
+}
 
 /// A star: a point at infinity, given in the sky's frame.
 struct Star {
