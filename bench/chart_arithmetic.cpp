@@ -187,9 +187,11 @@ Triple<double> hit_of_backlight(const Case& c) {
   const ExtendedEvent origin =
       boost(Extended(-1.0) * u, {Extended(0.0), ExtendedVec3{-Vec3(c.from[0], c.from[1], c.from[2])}});
   frame.motion = {u, origin};
-  frame.surfaces.add(sphere(1.0), Placement{});
-  frame.surfaces.build();
-  frame.object_of_surface.assign(1, 0);
+  SurfaceSet surfaces;
+  surfaces.add(sphere(1.0), Placement{});
+  surfaces.build();
+  frame.surfaces = std::make_shared<const SurfaceSet>(std::move(surfaces));
+  frame.object_of_surface = std::vector<int>{0};
   const Hub hub = make_hub(scene);
   RayInFrames rays(hub);
   CameraRay ray;
@@ -198,7 +200,7 @@ Triple<double> hit_of_backlight(const Case& c) {
   const FirstHit hit = first_hit(hub, rays);
   if (!hit.found()) return {NAN, NAN, NAN};
   const RestRayEvents& line = rays.in(1);
-  const Vec3 p = frame.surfaces.resolve(hit.hit, line.origin, line.direction, line.clock()).position;
+  const Vec3 p = frame.surfaces->resolve(hit.hit, line.origin, line.direction, line.clock()).position;
   return {p.x, p.y, p.z};
 }
 

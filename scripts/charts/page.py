@@ -1,0 +1,164 @@
+"""Writes docs/speed-accuracy.md: the text of a template, with tables made from the charts' CSV files. Called by scripts/charts.sh.
+
+    page.py FOLDER TEMPLATE PAGE
+
+In the template, a line <!-- table NAME --> stands for a table, <!-- machine --> for what was measured on, and (chart:NAME.png) for
+a path to a chart. Standard library only.
+"""
+
+import csv
+import os
+import re
+import statistics
+import sys
+
+
+def rows(folder, name):
+    with open(os.path.join(folder, name + ".csv"), encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def short(text, digits=2):
+    """A number of the CSV with few digits: 1.2e-15, 0.034, 1200."""
+    value = float(text)
+    if value == 0:
+        return "0"
+    if value != value or value in (float("inf"), float("-inf")):
+        return "-" if value != value else "∞"
+    return f"{value:.{digits}g}" if 1e-3 <= abs(value) < 1e4 else f"{value:.{digits - 1}e}".replace("e-0", "e-").replace("e+0", "e")
+
+
+def thousands(text):
+    value = float(text)
+    return f"{value / 1e6:.1f} M" if value >= 1e6 else f"{value / 1e3:.0f} k" if value >= 1e4 else f"{value:.0f}"
+
+
+def table(heading, lines):
+    out = ["| " + " | ".join(heading) + " |", "|" + " --- |" * len(heading)]
+    return out + ["| " + " | ".join(line) + " |" for line in lines]
+
+
+def roots(folder):
+    lines = []
+    for row in rows(folder, "roots"):
+        missed, invented = (row[c] if row[c] == "0" else f"**{row[c]}**" for c in ("missed", "invented"))
+        lines.append((row["surface"], row["method"], thousands(row["rays_per_second"]), short(row["worst_error"]),
+                      short(row["median_error"]), missed, invented, row["hits"]))
+    return table(("surface", "method", "rays/s", "worst error", "median", "missed", "invented", "true hits"), lines)
+
+
+def arithmetic(folder):
+    all_rows = rows(folder, "arithmetic")
+    methods = list(dict.fromkeys(row["method"] for row in all_rows))
+    by = {(row["method"], float(row["gamma"])): row for row in all_rows}
+    lines = []
+    for gamma in (3.0, 29.0, 31.0, 1e3, 1e6, 1e8):
+        lines.append([f"{gamma:g}".replace("e+0", "e")] + [
+            f"{short(by[m, gamma]['doppler_error'])}, {short(by[m, gamma]['hit_error'])}"
+            + (f", **{by[m, gamma]['lost']} of {by[m, gamma]['hits']} lost**" if int(by[m, gamma]["lost"]) else "")
+            for m in methods])
+    lines.append(["ns a boost, γ = 29; 31"] + [
+        f"{short(by[m, 29.0]['nanoseconds'])}; {short(by[m, 31.0]['nanoseconds'])}" for m in methods])
+    return table(["γ"] + methods, lines)
+
+
+def wavelengths(folder):
+    cost = {row["wavelengths"]: row["times_rgb"] for row in rows(folder, "wavelengths-cost")}
+    lines = [("3 lines, no spectra", "1", *(short(row[c]) for c in ("mean", "percentile99", "worst")))
+             for row in rows(folder, "wavelengths") if row["rule"] == "three lines"]
+    lines += [(f"**{row['wavelengths']}**" if row["wavelengths"] == "56" else row["wavelengths"],
+               short(cost[row["wavelengths"]]), *(short(row[c]) for c in ("mean", "percentile99", "worst")))
+              for row in rows(folder, "wavelengths") if row["rule"] == "Backlight"]
+    return table(("wavelengths", "time / RGB", "mean ΔE2000", "99 % below", "worst"), lines)
+
+
+def sampling(folder):
+    all_rows, lines = rows(folder, "dial"), []
+    for scene in dict.fromkeys(row["scene"] for row in all_rows):
+        mine = [row for row in all_rows if row["scene"] == scene]
+        uniform = [row for row in mine if row["method"] == "uniform"]
+        for row in mine:
+            if row["method"] != "tolerance" or float(row["setting"]) not in (0.02, 0.005):
+                continue
+            near = min(uniform, key=lambda u, t=float(row["cpu_seconds"]): abs(float(u["cpu_seconds"]) - t))
+            delivered = short(row["rms"])
+            if float(row["rms"]) > 2 * float(row["setting"]):
+                delivered = f"**{delivered}**"
+            lines.append((scene, row["setting"], delivered, short(row["cpu_seconds"]), short(row["samples"]),
+                          f"{near['setting']} samples, {short(near['cpu_seconds'])} s: {short(near['rms'])}"))
+    return table(("scene", "asked", "delivered", "CPU s", "samples a pixel", "uniform samples in about that time"), lines)
+
+
+def objects(folder):
+    all_rows = [row for row in rows(folder, "objects") if row["path"] == "sheets"]
+    kinds = list(dict.fromkeys(row["motion"] for row in all_rows))
+    by = {(row["motion"], row["spheres"]): row["cpu_seconds"] for row in all_rows}
+    lines = [[n] + [short(by[kind, n]) for kind in kinds] for n in dict.fromkeys(row["spheres"] for row in all_rows)]
+    return table(["spheres"] + [kind + ", CPU s" for kind in kinds], lines)
+
+
+def pixels(folder):
+    all_rows = rows(folder, "pixels")
+    by = {(row["motion"], row["pixels"]): float(row["cpu_seconds"]) for row in all_rows}
+    lines = []
+    for row in all_rows:
+        if row["motion"] == "moving":
+            size = (row["width"] + "x" + row["height"], row["pixels"])
+            lines.append((size[0], *(f"{short(by[m, size[1]])} s, {1e9 * by[m, size[1]] / int(size[1]):.0f} ns"
+                                     for m in ("at rest", "moving"))))
+    return table(("pixels", "at rest: CPU time, and of a pixel", "every one its own velocity"), lines)
+
+
+def threads(folder):
+    return table(("threads", "seconds", "times as fast"),
+                 [(row["threads"], short(row["wall_seconds"], 3), short(row["speed_up"], 3)) for row in rows(folder, "threads")])
+
+
+def ablation(folder):
+    all_rows, lines = rows(folder, "ablation"), []
+    for piece in dict.fromkeys(row["left_out"] for row in all_rows):
+        if piece == "nothing":
+            continue
+        mine = [row for row in all_rows if row["left_out"] == piece]
+        time = [float(row["times_whole"]) for row in mine]
+        error = [float(row["rms"]) for row in mine]
+        worst = max(mine, key=lambda row: float(row["rms"]))["scene"] if max(error) > 0 else "none"
+        lines.append((piece, short(statistics.median(time)), f"{short(min(time))} ... {short(max(time))}",
+                      short(statistics.median(error)), short(max(error)), worst))
+    return table(("left out", "time left, median", "over the figures", "error, median", "largest", "in"), lines)
+
+
+TABLES = {"roots": roots, "arithmetic": arithmetic, "wavelengths": wavelengths, "sampling": sampling, "objects": objects,
+          "pixels": pixels, "threads": threads, "ablation": ablation}
+
+
+def machine(folder):
+    with open(os.path.join(folder, "machine.txt"), encoding="utf-8") as file:
+        return [file.read().strip()]
+
+
+def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    folder, template, page = sys.argv[1:]
+    charts = os.path.relpath(folder, os.path.dirname(page))
+    out = []
+    with open(template, encoding="utf-8") as file:
+        for line in file.read().splitlines():
+            found = re.fullmatch(r"<!-- table (\w+) -->", line)
+            try:
+                if found:
+                    out += TABLES[found.group(1)](folder)
+                elif line == "<!-- machine -->":
+                    out += machine(folder)
+                else:
+                    out.append(re.sub(r"\(chart:([\w.-]+)\)", lambda m: f"({charts}/{m.group(1)})", line))
+            except FileNotFoundError as missing:
+                out.append(f"(not measured yet: {os.path.basename(missing.filename)})")
+    with open(page + ".new", "w", encoding="utf-8") as file:
+        file.write("\n".join(out) + "\n")
+    os.replace(page + ".new", page)
+
+
+if __name__ == "__main__":
+    main()
