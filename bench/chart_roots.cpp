@@ -342,7 +342,8 @@ std::string run_povray(const fs::path& folder, const std::string& scene, int edg
 double traced_seconds(const fs::path& folder, const std::string& scene, int edge) {
   const std::string words = run_povray(folder, scene, edge);
   std::smatch found;
-  if (!std::regex_search(words, found, std::regex(R"(Trace Time:[^)]*\)\s+using[^)]*\) with ([0-9.]+) CPU-seconds)"))) {
+  if (!std::regex_search(words, found,
+                         std::regex(R"(Trace Time:[^)]*\)\s+using[^)]*\) with ([0-9.]+) CPU-seconds)"))) {
     std::cerr << "chart_roots: POV-Ray does not tell its time; see " << (folder / "povray.log") << '\n';
     std::exit(1);
   }

@@ -15,7 +15,8 @@
 #             f  cost by the number of objects, pixels and threads
 #             g  each piece of the model left out: cost and error
 #
-# MEASURE_WITH, if set, is a command to be put before each measuring program, such as 'nice -n -5'.
+# MEASURE_WITH, if set, is a command to be put before each measuring program, such as 'nice -n -5'; CHART_PROGRAMS a folder with the
+# measuring programs, which are then not built.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -27,7 +28,7 @@ for argument in "$@"; do
     --quick) quick=yes ;;
     --draw) draw_only=yes ;;
     [a-g]) charts+=("$argument") ;;
-    *) sed -n '2,19s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    *) sed -n '2,20s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 ((${#charts[@]})) || charts=(a b c d e f g)
@@ -38,13 +39,13 @@ flag=()
 mkdir -p "$out"
 figures=(fig1-tram-interior fig2a-tram-rest fig2b-tram-terrell fig2c-tram-no-light-delay fig3-earth
   fig5a-street-mercator-rest fig5b-street-mercator-0.9c fig6-starfield fig6b-real-stars fig7-tram-shadow)
-bench=build/bench/bench
+bench=${CHART_PROGRAMS:-build/bench/bench}
 begin=$SECONDS
 
 if [[ $draw_only == no ]]; then
   scripts/install.sh build bench charts
-  cmake --preset bench >/dev/null
-  cmake --build --preset bench --target chart_ablation chart_arithmetic chart_dial chart_roots chart_scaling chart_wavelengths
+  [[ -n ${CHART_PROGRAMS:-} ]] || cmake --preset bench >/dev/null
+  [[ -n ${CHART_PROGRAMS:-} ]] || cmake --build --preset bench --target chart_ablation chart_arithmetic chart_dial chart_roots chart_scaling chart_wavelengths
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -29,5 +29,7 @@ set xrange [0.02:60]
 set key right center font ",11"
 set arrow 2 from 1,graph 0 to 1,graph 1 nohead lc rgb grey
 plot for [i=1:words(scenes)] data using (strcol(1) eq word(scenes, i) ? column(4) : NaN):(place(strcol(2)) + spread(i)) \
-  with points pt 7 ps 1.3 lc rgb colour(i) title word(scenes, i)
+  with points pt 7 ps 1.3 lc rgb colour(i) title word(scenes, i), \
+  for [i=1:words(scenes)] data using (strcol(1) eq word(scenes, i) && column(5) == 0 && column(4) < 0.9 ? column(4) : NaN):(place(strcol(2)) + spread(i)) \
+  with points pt 6 ps 2.4 lw 1.5 lc rgb red title (i == 1 ? "slower with it, for nothing" : "")
 unset multiplot

@@ -1,6 +1,8 @@
 """Writes docs/speed-accuracy.md: the text of a template, with tables made from the charts' CSV files. Called by scripts/charts.sh.
 
-    page.py FOLDER TEMPLATE PAGE
+    page.py FOLDER TEMPLATE PAGE [--check]
+
+With --check nothing is written: exit status 1 tells that the page is not that of the CSV files and the template.
 
 In the template, a line <!-- table NAME --> stands for a table, <!-- machine --> for what was measured on, and (chart:NAME.png) for
 a path to a chart. Standard library only.
@@ -25,6 +27,8 @@ def short(text, digits=2):
         return "0"
     if value != value or value in (float("inf"), float("-inf")):
         return "-" if value != value else "∞"
+    if 100 <= abs(value) < 1e4:
+        return f"{value:.0f}"
     return f"{value:.{digits}g}" if 1e-3 <= abs(value) < 1e4 else f"{value:.{digits - 1}e}".replace("e-0", "e-").replace("e+0", "e")
 
 
@@ -138,9 +142,9 @@ def machine(folder):
 
 
 def main():
-    if len(sys.argv) != 4:
+    if len(sys.argv) not in (4, 5) or sys.argv[4:] not in ([], ["--check"]):
         sys.exit(__doc__)
-    folder, template, page = sys.argv[1:]
+    folder, template, page = sys.argv[1:4]
     charts = os.path.relpath(folder, os.path.dirname(page))
     out = []
     with open(template, encoding="utf-8") as file:
@@ -155,8 +159,12 @@ def main():
                     out.append(re.sub(r"\(chart:([\w.-]+)\)", lambda m: f"({charts}/{m.group(1)})", line))
             except FileNotFoundError as missing:
                 out.append(f"(not measured yet: {os.path.basename(missing.filename)})")
+    text = "\n".join(out) + "\n"
+    if sys.argv[4:]:
+        with open(page, encoding="utf-8") as file:
+            sys.exit(0 if file.read() == text else f"{page} is not up to date: scripts/charts.sh --draw")
     with open(page + ".new", "w", encoding="utf-8") as file:
-        file.write("\n".join(out) + "\n")
+        file.write(text)
     os.replace(page + ".new", page)
 
 

@@ -31,10 +31,14 @@ int run(const CheckOptions& options) {
 
   const std::vector<int> frames = session.frames();
   const std::vector<int> checked = frames_to_check(frames);
+  CompileCounts last;
   for (const int frame : checked) {
     ImageRequest request = options.scene.request;
     request.frame = frame;
-    if (session.compile(request)) continue;
+    if (const auto image = session.compile(request)) {
+      last = image->counts;
+      continue;
+    }
     std::cerr << "in frame " << frame << '\n';
     return session.exit_code();
   }
@@ -43,7 +47,8 @@ int run(const CheckOptions& options) {
   std::cout << explain(session.description(), *scene, needs_within_tolerance(*scene))
             << strategy_lines(*scene, trace_strategy(*scene));
   if (frames.size() > 1) {
-    std::cout << "No mistakes in " << checked.size() << " of its " << frames.size() << " frames.\n";
+    std::cout << reuse_line(last) << "No mistakes in " << checked.size() << " of its " << frames.size()
+              << " frames.\n";
   }
   return exit_success;
 }

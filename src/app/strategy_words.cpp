@@ -54,6 +54,15 @@ std::string strategy_lines(const Scene& scene, const TraceStrategy& strategy) {
   return text;
 }
 
+std::string reuse_line(const CompileCounts& counts) {
+  const auto share = [](std::size_t reused, std::size_t made, const char* what) {
+    return std::to_string(reused) + " of " + std::to_string(reused + made) + ' ' + what;
+  };
+  return "  reuse      from image to image " +
+         share(counts.surfaces_reused, counts.surfaces_made, "surfaces") + ", " +
+         share(counts.materials_reused, counts.materials_made, "materials") + '\n';
+}
+
 std::string shadows_json(const TraceStrategy& strategy) {
   std::string json = "[";
   for (const CullingChoice& choice : strategy.shadows) {

@@ -10,6 +10,9 @@ namespace backlight {
 /// The lines "rays" and "shadows" of `check`. Lights that are treated alike share a line.
 std::string strategy_lines(const Scene& scene, const TraceStrategy& strategy);
 
+/// The line "reuse" of `check`: what an image takes over from the one before, unchanged.
+std::string reuse_line(const CompileCounts& counts);
+
 /// ["light-sky cones per tile: 200 surfaces","none"]: the shadow rays of each light, in the order of the
 /// scene.
 std::string shadows_json(const TraceStrategy& strategy);

@@ -110,5 +110,20 @@ TEST_F(LeastModel, CheckTellsTheSame) {
   EXPECT_NE(outcome.out.find("\n             light 2: none\n"), std::string::npos) << outcome.out;
 }
 
+TEST_F(LeastModel, CheckTellsWhatImagesShare) {
+  const std::string frames = "[animation]\nframes = [1, 3]\n";
+  const auto check = [this](const std::string& scene) {
+    write("scene.toml", scene);
+    return run({"check", "scene.toml"}).out;
+  };
+  const std::string fixed = check(film + frames + sphere + sphere + "position = [3, 0, 0]\n" + lamp);
+  EXPECT_NE(fixed.find("  reuse      from image to image 2 of 2 surfaces, "), std::string::npos) << fixed;
+  const std::string growing =
+      check(film + frames + sphere +
+            "[[object]]\nshape = \"sphere\"\nradius = \"1 + t\"\nbeta = [0.5, 0, 0]\n" + lamp);
+  EXPECT_NE(growing.find("  reuse      from image to image 1 of 2 surfaces, "), std::string::npos) << growing;
+  EXPECT_EQ(check(film + sphere + lamp).find("reuse"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace backlight::test
