@@ -153,8 +153,8 @@ std::vector<KnownSurface> known_surfaces() {
       BACKLIGHT_KNOWN("Steiner's surface", 0.6, steiner, 0),
       BACKLIGHT_KNOWN("Barth's sextic", 1.9, barth, 0),
       BACKLIGHT_KNOWN("Klein bottle", 4.0, klein, 0),
-      BACKLIGHT_KNOWN("Chmutov's octic, composed", 1.1, chmutov, 0),
-      BACKLIGHT_KNOWN("Chmutov's octic, expanded", 1.1, chmutov_expanded, 0),
+      BACKLIGHT_KNOWN("Chmutov's octic (composed)", 1.1, chmutov, 0),
+      BACKLIGHT_KNOWN("Chmutov's octic (expanded)", 1.1, chmutov_expanded, 0),
       BACKLIGHT_KNOWN("gyroid", 6.0, gyroid, 0),
   };
   const Monomials x = unit(0), y = unit(1), z = unit(2);

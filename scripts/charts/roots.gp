@@ -2,7 +2,7 @@
 set terminal pngcairo size 1500,1560
 set output folder."/roots.png"
 data = folder."/roots.csv"
-surfaces = "sphere|torus|Steiner's surface|Barth's sextic|Klein bottle|Chmutov's octic, composed|Chmutov's octic, expanded|gyroid"
+surfaces = "sphere|torus|Steiner's surface|Barth's sextic|Klein bottle|Chmutov's octic (composed)|Chmutov's octic (expanded)|gyroid"
 surface(i) = system(sprintf("echo \"%s\" | cut -d'|' -f%d", surfaces, i))
 set multiplot layout 3,3 title "Root finders: how many rays a second, and how far off the worst hit is (better: up and to the left)" font ",15"
 set logscale xy
