@@ -28,6 +28,7 @@ for argument in "$@"; do
     --quick) quick=yes ;;
     --draw) draw_only=yes ;;
     [a-g]) charts+=("$argument") ;;
+    -h | --help) sed -n '2,20s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) sed -n '2,20s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
