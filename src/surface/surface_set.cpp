@@ -163,10 +163,11 @@ void SurfaceSet::search_tree(const RestRay& ray, double lambda_min, Hit& best) c
 }
 
 template <bool any>
-Hit SurfaceSet::search(const RestRay& ray, double lambda_min, double lambda_max) const {
+Hit SurfaceSet::search(const RestRay& ray, double lambda_min, double lambda_max,
+                       const std::vector<int>& unbounded) const {
   Hit best;
   best.lambda = lambda_max;
-  for (const int index : infinite_) {
+  for (const int index : unbounded) {
     const FirstCrossing crossing =
         first_crossing(surfaces_[static_cast<std::size_t>(index)], ray, lambda_min);
     if (crossing.lambda < best.lambda) {
@@ -186,13 +187,24 @@ Hit SurfaceSet::search(const RestRay& ray, double lambda_min, double lambda_max)
 
 Hit SurfaceSet::nearest(const Vec3& origin, const Vec3& direction, double lambda_limit,
                         const RayClock& clock) const {
-  const Hit hit = search<false>(RestRay(origin, direction, clock), 0.0, lambda_limit);
+  const Hit hit = search<false>(RestRay(origin, direction, clock), 0.0, lambda_limit, infinite_);
+  return hit.found() ? hit : Hit{};
+}
+
+Hit SurfaceSet::nearest_bounded(const Vec3& origin, const Vec3& direction, double lambda_limit,
+                                const RayClock& clock) const {
+  const Hit hit = search<false>(RestRay(origin, direction, clock), 0.0, lambda_limit, {});
   return hit.found() ? hit : Hit{};
 }
 
 bool SurfaceSet::blocked(const Vec3& origin, const Vec3& direction, double lambda_min, double lambda_max,
                          const RayClock& clock) const {
-  return search<true>(RestRay(origin, direction, clock), lambda_min, lambda_max).found();
+  return search<true>(RestRay(origin, direction, clock), lambda_min, lambda_max, infinite_).found();
+}
+
+bool SurfaceSet::blocked_bounded(const Vec3& origin, const Vec3& direction, double lambda_min,
+                                 double lambda_max, const RayClock& clock) const {
+  return search<true>(RestRay(origin, direction, clock), lambda_min, lambda_max, {}).found();
 }
 
 SurfacePoint SurfaceSet::resolve(const Hit& hit, const Vec3& origin, const Vec3& direction,
@@ -291,6 +303,14 @@ void SurfaceSet::resolve_all(std::span<const Hit> hits, const Rays& rays, bool w
                  [&](const LocalPoint& point) { return surface_point(surface, point); });
 }
 
+std::size_t SurfaceSet::asked_one_by_one() const {
+  return static_cast<std::size_t>(
+      std::count_if(surfaces_.begin(), surfaces_.end(), [](const PlacedSurface& surface) {
+        return surface.shape.kind != ShapeKind::sphere && !is_infinite(surface.shape) &&
+               methods(surface.shape).first_crossings == nullptr;
+      }));
+}
+
 LaneSurface SurfaceSet::lane_surface(int surface) const {
   const PlacedSurface& placed = surfaces_[static_cast<std::size_t>(surface)];
   const Mat3& inverse = placed.placement.local_from_rest();
@@ -317,18 +337,24 @@ BoundingSphere SurfaceSet::bounds(int surface) const {
 }
 
 BoundingSphere SurfaceSet::bounds() const {
-  AxisBox box;
   for (const PlacedSurface& surface : surfaces_) {
-    if (is_infinite(surface.shape)) {
-      return {surface.placement.position(), surface.radius};
-    }
+    if (is_infinite(surface.shape)) return {surface.placement.position(), surface.radius};
+  }
+  return bounds_of_bounded();
+}
+
+BoundingSphere SurfaceSet::bounds_of_bounded() const {
+  AxisBox box;
+  bool any = false;
+  for (const PlacedSurface& surface : surfaces_) {
+    if (is_infinite(surface.shape)) continue;
     box.include(axis_box(surface));
+    any = true;
   }
-  if (surfaces_.empty()) {
-    return {};
-  }
+  if (!any) return {};
   BoundingSphere whole{0.5 * box.lo + 0.5 * box.hi, 0.0};
   for (const PlacedSurface& surface : surfaces_) {
+    if (is_infinite(surface.shape)) continue;
     const double reach = glm::length(surface.placement.position() - whole.centre) + surface.radius;
     whole.radius = std::max(whole.radius, reach * (1.0 + 1e-15));
   }

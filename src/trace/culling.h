@@ -10,6 +10,10 @@ namespace backlight {
 /// surface's cone on the light's sky looked at.
 inline constexpr std::size_t tree_from = 64;
 
+/// A frame with more surfaces than this that are asked one ray at a time (boxes, cones, cylinders) has its
+/// rays walk its tree, from the camera too.
+inline constexpr std::size_t camera_tree_from = 8;
+
 /// With fewer occluders than this, each sheet of points looks at all of them; with more a tile lists first
 /// what may shade anything of it.
 inline constexpr std::size_t tile_list_from = 48;

@@ -80,6 +80,12 @@ LaneCone cone_of_now(const FrameView& view, const Vec3& origin, const BoundingSp
   return cone;
 }
 
+BoundingSphere bounds_of(const Occupant& occupant, const SurfaceSet& surfaces) {
+  if (occupant.surface == Occupant::whole_frame) return surfaces.bounds();
+  if (occupant.surface == Occupant::all_bounded) return surfaces.bounds_of_bounded();
+  return surfaces.bounds(occupant.surface);
+}
+
 }  // namespace
 
 void ConeStore::resize(std::size_t count) {
@@ -135,26 +141,36 @@ SheetScene::SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& k
   }
 }
 
+// Trees come behind all surfaces: what they find takes the place of what was found before, where that is
+// farther away or, equally far, later in the scene.
 void SheetScene::list_occupants(const Hub& hub) {
   std::size_t most = 0;
   for (const int frame : hub.occupied) {
     most += hub.frames[static_cast<std::size_t>(frame)].scene->surfaces->size();
   }
   lanes_.reserve(most);  // the occupants point into it
+  std::vector<Occupant> trees;
   for (const int frame : hub.occupied) {
     const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(frame)].scene->surfaces;
-    const auto count = static_cast<int>(surfaces.size());
-    const bool whole = one_by_one(frame);
-    const std::size_t first = lanes_.size();
-    for (int s = 0; s < count && !whole; ++s) lanes_.push_back(surfaces.lane_surface(s));
-    const auto lanes = [&](int s) { return &lanes_[first + static_cast<std::size_t>(s)]; };
-    if (whole) occupants_.push_back({frame, -1, &no_lanes});
-    for (int s = 0; s < count && !whole; ++s) occupants_.push_back({frame, s, lanes(s)});
-    // A tree does not help with what has no bounds: those are few, and stay single.
-    const bool tree = whole || (surfaces.size() > tree_from && std::isfinite(surfaces.bounds().radius));
-    if (tree) occluders_.push_back({frame, -1, &no_lanes});
-    for (int s = 0; s < count && !tree; ++s) occluders_.push_back({frame, s, lanes(s)});
+    if (one_by_one(frame)) {
+      occupants_.push_back({frame, Occupant::whole_frame, &no_lanes});
+      occluders_.push_back({frame, Occupant::whole_frame, &no_lanes});
+      continue;
+    }
+    const bool camera_tree = surfaces.asked_one_by_one() > camera_tree_from;
+    const bool light_tree =
+        camera_tree || (surfaces.size() > tree_from && std::isfinite(surfaces.bounds().radius));
+    const Occupant tree{frame, Occupant::all_bounded, &no_lanes, static_cast<int>(occupants_.size())};
+    if (camera_tree) trees.push_back(tree);
+    if (light_tree) occluders_.push_back(tree);
+    for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {
+      lanes_.push_back(surfaces.lane_surface(s));
+      const bool bounded = std::isfinite(surfaces.bounds(s).radius);
+      occupants_.push_back({frame, s, &lanes_.back(), 0, camera_tree && bounded});
+      if (!(light_tree && bounded)) occluders_.push_back({frame, s, &lanes_.back()});
+    }
   }
+  occupants_.insert(occupants_.end(), trees.begin(), trees.end());
 }
 
 EyeView SheetScene::view_of(const Scene& scene, const Hub& hub, int eye) const {
@@ -176,29 +192,32 @@ EyeView SheetScene::view_of(const Scene& scene, const Hub& hub, int eye) const {
   for (int delayed = 0; delayed < 2; ++delayed) {
     ConeStore& store = result.cones[static_cast<std::size_t>(delayed)];
     store.resize(occupants_.size());
+    ConeTable& table = store.table();
+    table.count = 0;
     for (std::size_t i = 0; i < occupants_.size(); ++i) {
       const Occupant& occupant = occupants_[i];
+      if (occupant.in_tree) continue;
       const FrameView& view = hub.frames[static_cast<std::size_t>(occupant.frame)];
       const double* o = result.frames[static_cast<std::size_t>(occupant.frame)].origin;
       const Vec3 origin{o[0], o[1], o[2]};
       LaneCone cone;
       cone.level = -infinity;
       double radius = 0.0;
-      if (occupant.surface < 0) {
+      if (occupant.surface == Occupant::whole_frame) {
         if (view.far && delayed != 0) cone = cone_of(*view.far, offset);
         if (view.far) radius = view.far->bounds.radius * (1.0 + 1e-9);
       } else {
-        const BoundingSphere sphere = view.scene->surfaces->bounds(occupant.surface);
+        const BoundingSphere sphere = bounds_of(occupant, *view.scene->surfaces);
         if (std::isfinite(sphere.radius)) {
           cone = delayed != 0 ? cone_of(view, origin, sphere) : cone_of_now(view, origin, sphere);
           radius = sphere.radius;
         }
       }
-      ConeTable& table = store.table();
-      for (int k = 0; k < 3; ++k) table.axis[k][i] = cone.axis[k];
-      table.level[i] = cone.level;
-      table.radius[i] = radius;
-      table.who[i] = static_cast<int>(i);
+      const auto row = static_cast<std::size_t>(table.count++);
+      for (int k = 0; k < 3; ++k) table.axis[k][row] = cone.axis[k];
+      table.level[row] = cone.level;
+      table.radius[row] = radius;
+      table.who[row] = static_cast<int>(i);
     }
   }
   return result;
@@ -220,8 +239,7 @@ LampView SheetScene::view_of(const Scene& scene, const Hub& hub, std::size_t lig
     const Occupant& occluder = occluders_[i];
     const FrameView& view = hub.frames[static_cast<std::size_t>(occluder.frame)];
     const SurfaceSet& surfaces = *view.scene->surfaces;
-    const BoundingSphere sphere =
-        occluder.surface < 0 ? surfaces.bounds() : surfaces.bounds(occluder.surface);
+    const BoundingSphere sphere = bounds_of(occluder, surfaces);
     if (!std::isfinite(sphere.radius)) {
       result.unbounded.push_back(static_cast<int>(i));
       continue;

@@ -39,11 +39,16 @@ class LampStore {
   std::unique_ptr<int[]> who_;
 };
 
-/// Something that a ray may meet: a surface, or all surfaces of a frame.
+/// Something that a ray may meet: a surface, or many of a frame by SurfaceSet's own search.
 struct Occupant {
+  static constexpr int whole_frame = -1;
+  static constexpr int all_bounded = -2;
+
   int frame = 0;
-  int surface = -1;                    ///< -1: all of the frame's, by SurfaceSet's own search
+  int surface = whole_frame;           ///< or one of the above
   const LaneSurface* lanes = nullptr;  ///< of kind `other` where one ray goes at a time
+  int first = 0;                       ///< of all_bounded: the occupant that the frame's surface 0 is
+  bool in_tree = false;                ///< of a surface: found by the search of all_bounded alone
 };
 
 /// The view of one eye.

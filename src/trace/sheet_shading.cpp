@@ -239,7 +239,7 @@ void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder) {
                                   end};
       dark = is_shadowed_in(occluder.frame, hub, scratch_.rays, hit(i), hub.lights[light], segment);
     } else if (occluder.surface < 0) {
-      dark = surfaces.blocked(vec(p.trial_start, i), vec(p.trial_direction, i), 0.0, end, clock);
+      dark = surfaces.blocked_bounded(vec(p.trial_start, i), vec(p.trial_direction, i), 0.0, end, clock);
     } else {
       together.add(i, vec(p.trial_start, i), vec(p.trial_direction, i), clock);
     }

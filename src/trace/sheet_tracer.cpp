@@ -190,7 +190,8 @@ class SheetSearch {
   }
 
  private:
-  // The occupants come in the order of their frames and surfaces, so that of equal λ the first one wins.
+  // The occupants come in the order of their frames and surfaces, so that of equal λ the first one wins;
+  // trees come last, and look for themselves.
   void ask(TileSheet& sheet, int who, const LaneCone& cone) {
     const Occupant& occupant = scene_.occupants()[static_cast<std::size_t>(who)];
     const LaneFrame& frame = scene_.eye(eye_).frames[static_cast<std::size_t>(occupant.frame)];
@@ -200,8 +201,13 @@ class SheetSearch {
     }
     const std::uint64_t inside = scene_.kernels().inside(sheet.rays, cone);
     if (inside == 0) return;
-    occupant.surface < 0 ? ask_frame(sheet, occupant, inside)
-                         : ask_surface(sheet, who, occupant, frame, inside);
+    if (occupant.surface == Occupant::whole_frame) {
+      ask_frame(sheet, occupant, inside);
+    } else if (occupant.surface == Occupant::all_bounded) {
+      ask_tree(sheet, occupant, frame, inside);
+    } else {
+      ask_surface(sheet, who, occupant, frame, inside);
+    }
   }
 
   void ask_surface(TileSheet& sheet, int who, const Occupant& occupant, const LaneFrame& frame,
@@ -228,6 +234,35 @@ class SheetSearch {
       sheet.unresolved[lane] = hits[i].unresolved;
       sheet.along[lane] = hits[i].along;
     }
+  }
+
+  void ask_tree(TileSheet& sheet, const Occupant& occupant, const LaneFrame& frame, std::uint64_t inside) {
+    const SurfaceSet& surfaces =
+        *tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
+    alignas(64) double direction[4][sheet_size];
+    scene_.kernels().in_frame(frame, sheet.rays, direction);
+    const Vec3 origin{frame.origin[0], frame.origin[1], frame.origin[2]};
+    for (; inside != 0; inside &= inside - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctzll(inside));
+      const double limit = std::nextafter(sheet.rays.lambda[lane], infinity);  // what is equally far counts
+      const Hit hit =
+          surfaces.nearest_bounded(origin, Vec3{direction[0][lane], direction[1][lane], direction[2][lane]},
+                                   limit, {frame.time, direction[3][lane]});
+      if (!hit.found()) continue;
+      const int who = occupant.first + hit.surface;
+      if (hit.lambda == sheet.rays.lambda[lane] && is_earlier(sheet, lane, occupant.frame, who)) continue;
+      sheet.rays.lambda[lane] = hit.lambda;
+      sheet.rays.who[lane] = who;
+      sheet.part[lane] = hit.part;
+      sheet.unresolved[lane] = hit.unresolved;
+      sheet.along[lane] = hit.along;
+    }
+  }
+
+  // Whether what a lane has met comes earlier in the scene than an occupant.
+  bool is_earlier(const TileSheet& sheet, std::size_t lane, int frame, int who) const {
+    if (sheet.rays.who[lane] != far_hit) return sheet.rays.who[lane] < who;
+    return work_.far_hits[static_cast<std::size_t>(sheet.place[lane])].frame < frame;
   }
 
   void ask_frame(TileSheet& sheet, const Occupant& occupant, std::uint64_t inside) {

@@ -14,6 +14,7 @@ CullingChoice counted(const std::vector<Occupant>& occupants, const Hub& hub) {
   CullingChoice choice;
   for (const Occupant& occupant : occupants) {
     const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
+    if (occupant.in_tree) continue;
     if (occupant.surface < 0) {
       ++choice.trees;
     } else if (std::isfinite(surfaces.bounds(occupant.surface).radius)) {

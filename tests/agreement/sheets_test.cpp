@@ -114,6 +114,33 @@ TEST(Sheets, AreTheLawInSharedFrames) {
   }
 }
 
+// Frames of many boxes, cones and cylinders are searched by their trees, with planes and spheres beside them;
+// some faces lie in a plane that is written before or after them.
+TEST(Sheets, AreTheLawInTreesOfFrames) {
+  std::mt19937 random(5);
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
+  std::string more;
+  const char* shapes[] = {"shape = \"box\"\nsize = [0.4, 0.5, 0.6]\n",
+                          "shape = \"cylinder\"\nradius = 0.2\nheight = 0.6\n",
+                          "shape = \"cone\"\nradius = 0.3\ntop_radius = 0\nheight = 0.7\n"};
+  for (int i = 0; i < 48; ++i) {
+    more += std::string("[[object]]\n") + shapes[i % 3] +
+            "position = " + vec(uniform(-5, 5), uniform(-1.2, 3), uniform(-4, 8)) +
+            "\nrotate = " + vec(uniform(0, 90), uniform(0, 90), 0) + "\n";
+    if (i % 4 != 0) more += "beta = " + vec(i % 4 == 1 ? 0.6 : -0.3, 0.0, i % 4 == 2 ? 0.7 : 0.1) + "\n";
+  }
+  for (int i = 0; i < 12; ++i) {
+    more += "[[object]]\nshape = \"box\"\nsize = [0.9, 1, 0.9]\nposition = " +
+            vec(i - 6.0, i % 2 == 0 ? -2.0 : -1.9, 0.5 * i - 4.0) + "\nmaterial = { color = [1, 0, 0] }\n";
+  }
+  more += "[[object]]\nshape = \"plane\"\nposition = [0, -1.4, 0]\nmaterial = { color = [0, 1, 0] }\n";
+  const std::string sun = "[[light]]\ntype = \"distant\"\ndirection = [0.4, -1, 0.3]\nirradiance = 1\n";
+  for (const std::string& scene : {more, more + sun}) {
+    expect_the_law(scene_of({.spheres = 12, .gamma = 40.0, .width = 96, .height = 64, .more = scene}),
+                   three_colours);
+  }
+}
+
 TEST(Sheets, AreTheLawInEveryProjection) {
   for (const char* projection : {"equirectangular", "mercator", "fisheye"}) {
     expect_the_law(scene_of({.spheres = 60,

@@ -86,10 +86,18 @@ class SurfaceSet {
                             double lambda_limit = std::numeric_limits<double>::infinity(),
                             const RayClock& clock = {}) const;
 
+  /// nearest() of the surfaces that have bounds.
+  [[nodiscard]] Hit nearest_bounded(const Vec3& origin, const Vec3& direction, double lambda_limit,
+                                    const RayClock& clock) const;
+
   /// Whether the ray meets any surface at a λ in the open interval (lambda_min, lambda_max),
   /// lambda_min >= 0.
   [[nodiscard]] bool blocked(const Vec3& origin, const Vec3& direction, double lambda_min, double lambda_max,
                              const RayClock& clock = {}) const;
+
+  /// blocked() by the surfaces that have bounds.
+  [[nodiscard]] bool blocked_bounded(const Vec3& origin, const Vec3& direction, double lambda_min,
+                                     double lambda_max, const RayClock& clock) const;
 
   /// The point of a hit that nearest() found for this very ray. The position is not origin + λ direction,
   /// which from afar would carry the rounding of λ, but the crossing found again near the surface, and put
@@ -116,15 +124,21 @@ class SurfaceSet {
   void resolve_all(std::span<const Hit> hits, const Rays& rays, bool with_texture_coordinates,
                    std::span<SurfacePoint> points) const;
 
+  /// How many surfaces have bounds and a closed form that the lanes do not have: each is asked one ray at a
+  /// time, whatever else is asked together.
+  [[nodiscard]] std::size_t asked_one_by_one() const;
+
   /// A surface as the lanes have it: of kind `other` where only one ray at a time can be asked.
   [[nodiscard]] LaneSurface lane_surface(int surface) const;
 
   [[nodiscard]] BoundingSphere bounds(int surface) const;
-  [[nodiscard]] BoundingSphere bounds() const;  ///< of the whole set
+  [[nodiscard]] BoundingSphere bounds() const;             ///< of the whole set
+  [[nodiscard]] BoundingSphere bounds_of_bounded() const;  ///< of those surfaces that have bounds
 
  private:
   template <bool any>
-  Hit search(const RestRay& ray, double lambda_min, double lambda_max) const;
+  Hit search(const RestRay& ray, double lambda_min, double lambda_max,
+             const std::vector<int>& unbounded) const;
   template <bool any>
   bool search_range(const RestRay& ray, double lambda_min, std::size_t first, std::size_t last,
                     Hit& best) const;
