@@ -155,14 +155,21 @@ Result<void> AtomicFile::write(std::string_view text) {
   return write(std::as_bytes(std::span(text.data(), text.size())));
 }
 
-/// Links a file without a name into its folder. Returns 0, or the error's number.
+/// Gives a file without a name its own at once, where that is free, or else a temporary one: only between
+/// that and the renaming a killed process leaves something behind. Returns 0, or the error's number.
 int AtomicFile::give_name() {
   const std::string link = "/proc/self/fd/" + std::to_string(descriptor_);
+  const auto named = [&](const fs::path& name) {
+    return ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  };
+  if (named(path_)) return 0;
   for (;;) {
     const fs::path temporary = temporary_name(folder_of(path_));
-    if (::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) == 0) {
-      temporary_ = temporary;
-      return 0;
+    if (named(temporary)) {
+      if (::rename(temporary.c_str(), path_.c_str()) == 0) return 0;
+      const int error_number = errno;
+      ::unlink(temporary.c_str());
+      return error_number;
     }
     if (errno != EEXIST && errno != EINTR) {
       return errno;
@@ -184,11 +191,12 @@ Result<void> AtomicFile::commit() {
       return fail(error_number);
     }
   }
-  // A network file system may say only here that the disk is full. The descriptor is gone in any case.
+  // A network file system, which has no files without a name, may say only here that the disk is full. The
+  // descriptor is gone in any case.
   if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) {
     return fail(errno);
   }
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), path_.c_str()) != 0) {
     return fail(errno);
   }
   temporary_.clear();
