@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <set>
+#include <sstream>
 #include <thread>
 
 namespace backlight::test {
@@ -156,6 +159,25 @@ TEST_F(Sharing, AFullDiskStopsItAndNothingIsLost) {
   EXPECT_FALSE(exists("a.0001.exr.claim"));
   expect_success(job + Arguments{"--float", "--aov", "all", "-o", "right/a.exr"});
   expect_success(big);
+  expect_all_right();
+}
+
+// The template of docs/farm.md, with the frames as managers put them in: tasks of a few images each, one of
+// them tried twice.
+TEST_F(Sharing, TheCommandForOtherManagersRuns) {
+  std::ifstream page(BACKLIGHT_SOURCE_DIR "/docs/farm.md");
+  const std::string begin = "backlight render /shared/shot.toml -o /shared/frames/shot.####.exr ";
+  std::string line;
+  while (std::getline(page, line) && !line.starts_with(begin + "-f FRAMES")) {
+  }
+  ASSERT_TRUE(page) << "the template is gone";
+  std::istringstream words(line.substr(begin.size()));
+  const Arguments options{std::istream_iterator<std::string>(words), {}};
+  for (const char* frames : {"1-4", "5-8", "1-4", "9-12"}) {
+    Arguments task{"render", "scene.toml", "-o", "a.####.exr"};
+    for (const std::string& option : options) task.push_back(option == "FRAMES" ? frames : option);
+    expect_success(task + Arguments{"-s", "60", "-t", "1"});
+  }
   expect_all_right();
 }
 
