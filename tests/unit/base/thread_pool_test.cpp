@@ -5,6 +5,7 @@
 #include <sched.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <set>
 #include <stdexcept>
@@ -54,6 +55,8 @@ TEST(RunOnThreads, PassesOnAnException) {
   const auto task = [&](std::size_t i, int) {
     ++calls;
     if (i == 5) throw std::runtime_error("piece 5");
+    if (i > 5)
+      std::this_thread::sleep_for(std::chrono::microseconds(20));  // else all is done before it is thrown
   };
   EXPECT_THROW(run_on_threads(100000, 4, never, task), std::runtime_error);
   EXPECT_LT(calls.load(), 100000);
