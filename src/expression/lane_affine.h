@@ -224,17 +224,7 @@ BACKLIGHT_LANES LaneAffine<V> cos(LaneAffine<V> a) {
   BACKLIGHT_LANES LaneAffine<V> name(LaneAffine<V> a) { \
     return library(Operation::name, a, a);              \
   }
-BACKLIGHT_ONE_BY_ONE(tan)
-BACKLIGHT_ONE_BY_ONE(asin)
-BACKLIGHT_ONE_BY_ONE(acos)
-BACKLIGHT_ONE_BY_ONE(atan)
-BACKLIGHT_ONE_BY_ONE(sinh)
-BACKLIGHT_ONE_BY_ONE(cosh)
-BACKLIGHT_ONE_BY_ONE(tanh)
-BACKLIGHT_ONE_BY_ONE(exp)
-BACKLIGHT_ONE_BY_ONE(log)
-BACKLIGHT_ONE_BY_ONE(cbrt)
-BACKLIGHT_ONE_BY_ONE(floor)
+BACKLIGHT_LIBRARY_FUNCTIONS(BACKLIGHT_ONE_BY_ONE)
 #undef BACKLIGHT_ONE_BY_ONE
 
 #define BACKLIGHT_TWO_BY_TWO(name, operation)                            \
@@ -242,9 +232,7 @@ BACKLIGHT_ONE_BY_ONE(floor)
   BACKLIGHT_LANES LaneAffine<V> name(LaneAffine<V> a, LaneAffine<V> b) { \
     return library(Operation::operation, a, b);                          \
   }
-BACKLIGHT_TWO_BY_TWO(atan2, atan2)
-BACKLIGHT_TWO_BY_TWO(pow, pow)
-BACKLIGHT_TWO_BY_TWO(modulo, mod)
+BACKLIGHT_LIBRARY_FUNCTIONS_OF_TWO(BACKLIGHT_TWO_BY_TWO)
 #undef BACKLIGHT_TWO_BY_TWO
 
 /// A piece of a line as middle + half·ε: s in [from, to] for |ε| <= 1.

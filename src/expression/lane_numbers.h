@@ -293,7 +293,12 @@ BACKLIGHT_LANES LaneNumber<V> cos(LaneNumber<V> a) {
   return too_far_for_waves(a) ? library(Operation::cos, a, a) : LaneNumber<V>(waves(a.v).cosine);
 }
 
-// The functions that the library computes, one lane at a time.
+// The functions that the library computes, one lane at a time, for every number type over lanes: name(a), and
+// name(a, b) with the operation that it is.
+#define BACKLIGHT_LIBRARY_FUNCTIONS(X) \
+  X(tan) X(asin) X(acos) X(atan) X(sinh) X(cosh) X(tanh) X(exp) X(log) X(cbrt) X(floor)
+#define BACKLIGHT_LIBRARY_FUNCTIONS_OF_TWO(X) X(atan2, atan2) X(pow, pow) X(modulo, mod)
+
 #define BACKLIGHT_ONE_BY_ONE(name)                      \
   template <class V>                                    \
   BACKLIGHT_LANES LaneBounds<V> name(LaneBounds<V> a) { \
@@ -303,17 +308,7 @@ BACKLIGHT_LANES LaneNumber<V> cos(LaneNumber<V> a) {
   BACKLIGHT_LANES LaneNumber<V> name(LaneNumber<V> a) { \
     return library(Operation::name, a, a);              \
   }
-BACKLIGHT_ONE_BY_ONE(tan)
-BACKLIGHT_ONE_BY_ONE(asin)
-BACKLIGHT_ONE_BY_ONE(acos)
-BACKLIGHT_ONE_BY_ONE(atan)
-BACKLIGHT_ONE_BY_ONE(sinh)
-BACKLIGHT_ONE_BY_ONE(cosh)
-BACKLIGHT_ONE_BY_ONE(tanh)
-BACKLIGHT_ONE_BY_ONE(exp)
-BACKLIGHT_ONE_BY_ONE(log)
-BACKLIGHT_ONE_BY_ONE(cbrt)
-BACKLIGHT_ONE_BY_ONE(floor)
+BACKLIGHT_LIBRARY_FUNCTIONS(BACKLIGHT_ONE_BY_ONE)
 #undef BACKLIGHT_ONE_BY_ONE
 
 #define BACKLIGHT_TWO_BY_TWO(name, operation)                            \
@@ -325,9 +320,7 @@ BACKLIGHT_ONE_BY_ONE(floor)
   BACKLIGHT_LANES LaneNumber<V> name(LaneNumber<V> a, LaneNumber<V> b) { \
     return library(Operation::operation, a, b);                          \
   }
-BACKLIGHT_TWO_BY_TWO(atan2, atan2)
-BACKLIGHT_TWO_BY_TWO(pow, pow)
-BACKLIGHT_TWO_BY_TWO(modulo, mod)
+BACKLIGHT_LIBRARY_FUNCTIONS_OF_TWO(BACKLIGHT_TWO_BY_TWO)
 #undef BACKLIGHT_TWO_BY_TWO
 
 /// The slope of v = aᵇ along b.

@@ -5,13 +5,13 @@
 #include <mpfr.h>
 
 #include <cmath>
-#include <map>
 #include <random>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "backlight/expression/expression.h"
+#include "continuity_cases.h"
 #include "exact_operations.h"
 
 namespace backlight {
@@ -147,22 +147,10 @@ TEST(Affine, SeesWhatIntervalsDoNot) {
 }
 
 TEST(Affine, FlagsWhereThereIsNoContinuity) {
-  const std::map<std::string, Continuity> flags{{"1/x", Continuity::partial},
-                                                {"tan(x + pi/2)", Continuity::partial},
-                                                {"floor(x)", Continuity::defined},
-                                                {"mod(x, 1)", Continuity::defined},
-                                                {"log(x)", Continuity::partial},
-                                                {"sqrt(x)", Continuity::partial},
-                                                {"asin(x + 1)", Continuity::partial},
-                                                {"x^0.5", Continuity::partial},
-                                                {"atan2(x, -1)", Continuity::defined},
-                                                {"atan2(x, x)", Continuity::partial},
-                                                {"log(-1 - x^2)", Continuity::undefined},
-                                                {"cbrt(x)", Continuity::continuous},
-                                                {"abs(x)", Continuity::continuous},
-                                                {"atan2(x, 1)", Continuity::continuous},
-                                                {"sin(1e7*x)", Continuity::continuous}};
-  for (const auto& [text, flag] : flags) EXPECT_EQ(over(text, -0.5, 0.5).continuity, flag) << text;
+  for (const auto& [text, flag] : continuity_about_zero()) {
+    EXPECT_EQ(over(text, -0.5, 0.5).continuity, flag) << text;
+  }
+  EXPECT_EQ(over("sin(1e7*x)", -0.5, 0.5).continuity, Continuity::continuous);
 }
 
 TEST(Affine, ZerosAreWithinTheRegion) {

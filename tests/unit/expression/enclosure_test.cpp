@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "backlight/expression/expression.h"
+#include "continuity_cases.h"
 #include "exact_operations.h"
 
 namespace backlight {
@@ -123,21 +123,8 @@ TEST(Enclosure, EvenPowersAreTight) {
 }
 
 TEST(Enclosure, FlagsWhereThereIsNoContinuity) {
-  const std::map<std::string, Continuity> flags{{"1/x", Continuity::partial},
-                                                {"tan(x + pi/2)", Continuity::partial},
-                                                {"floor(x)", Continuity::defined},
-                                                {"mod(x, 1)", Continuity::defined},
-                                                {"log(x)", Continuity::partial},
-                                                {"sqrt(x)", Continuity::partial},
-                                                {"asin(x + 1)", Continuity::partial},
-                                                {"x^0.5", Continuity::partial},
-                                                {"atan2(x, -1)", Continuity::defined},
-                                                {"atan2(x, x)", Continuity::partial},
-                                                {"log(-1 - x^2)", Continuity::undefined},
-                                                {"cbrt(x)", Continuity::continuous},
-                                                {"abs(x)", Continuity::continuous},
-                                                {"atan2(x, 1)", Continuity::continuous}};
-  for (const auto& [text, flag] : flags) EXPECT_EQ(over(text, -0.5, 0.5).continuity, flag) << text;
+  for (const auto& [text, flag] : continuity_about_zero())
+    EXPECT_EQ(over(text, -0.5, 0.5).continuity, flag) << text;
 }
 
 TEST(Enclosure, SlopesHoldTheDerivatives) {
