@@ -228,11 +228,7 @@ class SheetSearch {
     for (std::size_t i = 0; i < rays.count(); ++i) {
       const int lane = rays.lane(i);
       if (!(hits[i].lambda < sheet.rays.lambda[lane])) continue;
-      sheet.rays.lambda[lane] = hits[i].lambda;
-      sheet.rays.who[lane] = who;
-      sheet.part[lane] = hits[i].part;
-      sheet.unresolved[lane] = hits[i].unresolved;
-      sheet.along[lane] = hits[i].along;
+      take(sheet, static_cast<std::size_t>(lane), who, hits[i]);
     }
   }
 
@@ -251,12 +247,16 @@ class SheetSearch {
       if (!hit.found()) continue;
       const int who = occupant.first + hit.surface;
       if (hit.lambda == sheet.rays.lambda[lane] && is_earlier(sheet, lane, occupant.frame, who)) continue;
-      sheet.rays.lambda[lane] = hit.lambda;
-      sheet.rays.who[lane] = who;
-      sheet.part[lane] = hit.part;
-      sheet.unresolved[lane] = hit.unresolved;
-      sheet.along[lane] = hit.along;
+      take(sheet, lane, who, hit);
     }
+  }
+
+  static void take(TileSheet& sheet, std::size_t lane, int who, const Hit& hit) {
+    sheet.rays.lambda[lane] = hit.lambda;
+    sheet.rays.who[lane] = who;
+    sheet.part[lane] = hit.part;
+    sheet.unresolved[lane] = hit.unresolved;
+    sheet.along[lane] = hit.along;
   }
 
   // Whether what a lane has met comes earlier in the scene than an occupant.
