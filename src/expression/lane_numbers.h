@@ -15,6 +15,9 @@ namespace backlight {
 
 template <class V>
 BACKLIGHT_LANES V larger(V a, V b) {
+#if defined(__AVX512F__)
+  if constexpr (V::width == 8) return (typename V::Vec)_mm512_max_pd((__m512d)a.v, (__m512d)b.v);
+#endif
 #if defined(__AVX__)
   if constexpr (V::width == 4) return (typename V::Vec)_mm256_max_pd((__m256d)a.v, (__m256d)b.v);
 #endif

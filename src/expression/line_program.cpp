@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "backlight/base/instruction_sets.h"
 #include "backlight/expression/affine.h"
 #include "backlight/expression/enclosure.h"
 #include "line_work.h"
@@ -14,10 +15,8 @@ namespace backlight {
 namespace {
 
 LineKernels widest() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") != 0 && avx2_line_kernels().pieces != nullptr)
-    return avx2_line_kernels();
-#endif
+  if (has_good_avx512() && avx512_line_kernels().pieces != nullptr) return avx512_line_kernels();
+  if (has_avx2() && avx2_line_kernels().pieces != nullptr) return avx2_line_kernels();
   return baseline_line_kernels();
 }
 

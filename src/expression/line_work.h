@@ -33,7 +33,9 @@ struct LineKernels {
 };
 
 LineKernels baseline_line_kernels();
-LineKernels avx2_line_kernels();  ///< null pointers where the compiler has no such instructions
+// Null pointers where the compiler has no such instructions.
+LineKernels avx2_line_kernels();
+LineKernels avx512_line_kernels();
 
 /// Lane by lane, the bounds of an operation that is not computed in lanes. Compiled for every machine. Notes
 /// trouble where the result is not certain to be continuous.

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "backlight/base/instruction_sets.h"
 #include "shape_table.h"
 #include "torus_lanes.h"
 
@@ -164,7 +165,8 @@ Crossings all_crossings(const Shape& shape, const LocalLine& line) {
 
 TorusKernel widest_kernel() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") != 0) return torus_roots_avx2;
+  if (has_good_avx512()) return torus_roots_avx512;
+  if (has_avx2()) return torus_roots_avx2;
 #endif
   return torus_roots_baseline;
 }
@@ -174,7 +176,7 @@ void first_of_some(const Shape& shape, std::span<const LocalLine> lines, double 
                    std::span<Crossings> results) {
   static const TorusKernel kernel = widest_kernel();
   thread_local TorusLines batch;
-  const std::size_t padded = (lines.size() + 3) / 4 * 4;
+  const std::size_t padded = (lines.size() + 7) / 8 * 8;
   for (std::size_t k = 0; k < padded; ++k) {
     const LocalLine& line = lines[std::min(k, lines.size() - 1)];
     for (int axis = 0; axis < 3; ++axis) {

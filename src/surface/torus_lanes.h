@@ -11,7 +11,7 @@
 
 namespace backlight {
 
-/// Lines as arrays, a multiple of four of them: point + t direction, where t > start counts.
+/// Lines as arrays, a multiple of eight of them: point + t direction, where t > start counts.
 struct TorusLines {
   static constexpr std::size_t most = 64;
   double point[3][most];
@@ -24,6 +24,7 @@ using TorusKernel = void (*)(TorusLines& lines, std::size_t count, double major,
 
 void torus_roots_baseline(TorusLines& lines, std::size_t count, double major, double minor);
 void torus_roots_avx2(TorusLines& lines, std::size_t count, double major, double minor);
+void torus_roots_avx512(TorusLines& lines, std::size_t count, double major, double minor);
 
 template <class V>
 class TorusLanes {

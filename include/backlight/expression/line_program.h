@@ -18,7 +18,7 @@ namespace backlight {
 class LineBatch {
  public:
   /// Numbers of lines are rounded up to a multiple of this; the spare ones repeat the last.
-  static constexpr std::size_t padding = 4;
+  static constexpr std::size_t padding = 8;
   static constexpr std::size_t most_variables = 4;
 
   explicit LineBatch(std::size_t capacity);

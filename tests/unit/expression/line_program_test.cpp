@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "../../../src/expression/lane_waves.h"
+#include "backlight/base/instruction_sets.h"
 #include "backlight/expression/affine.h"
 #include "backlight/expression/enclosure.h"
 #include "backlight/expression/expression.h"
@@ -22,6 +23,12 @@ namespace backlight {
 namespace {
 
 constexpr std::size_t variables = LineBatch::most_variables;
+
+/// The widths that this processor has, besides the one that is taken.
+std::vector<LineWidth> narrower_widths() {
+  if (has_avx2()) return {LineWidth::baseline, LineWidth::avx2};
+  return {LineWidth::baseline};
+}
 
 Tape tape_of(const std::string& text) {
   auto parsed = Expression::parse(text, {"x", "y", "z", "t"});
@@ -159,14 +166,19 @@ TEST_P(LineFormulas, NoLineDependsOnTheOthersNorOnTheWidth) {
   LineBatch lines = random_lines(count, 17);
   const LineProgram program(tape);
   const auto together = pieces_of(program, lines, count);
-  const auto baseline = pieces_of(LineProgram(tape, LineWidth::baseline), lines, count);
   std::vector<double> workspace;
   program.numbers(lines, count, workspace);
   const std::vector<double> values(lines.value(), lines.value() + count);
-  LineProgram(tape, LineWidth::baseline).numbers(lines, count, workspace);
+  for (const LineWidth width : narrower_widths()) {
+    const LineProgram narrow(tape, width);
+    const auto pieces = pieces_of(narrow, lines, count);
+    narrow.numbers(lines, count, workspace);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_TRUE(same(together[i], pieces[i])) << i;
+      EXPECT_TRUE(same(values[i], lines.value()[i])) << i;
+    }
+  }
   for (std::size_t i = 0; i < count; ++i) {
-    EXPECT_TRUE(same(together[i], baseline[i])) << i;
-    EXPECT_TRUE(same(values[i], lines.value()[i])) << i;
     LineBatch alone(1);
     for (std::size_t v = 0; v < variables; ++v) {
       alone.origin(v)[0] = lines.origin(v)[i];
@@ -184,7 +196,9 @@ TEST_P(LineFormulas, ZerosAreThoseOfTheLaw) {
   constexpr std::size_t count = 203;
   LineBatch lines = random_lines(count, 29);
   std::vector<double> workspace;
-  for (const LineWidth width : {LineWidth::automatic, LineWidth::baseline}) {
+  std::vector<LineWidth> widths = narrower_widths();
+  widths.push_back(LineWidth::automatic);
+  for (const LineWidth width : widths) {
     LineProgram(tape, width).enclose_zeros(lines, count, workspace);
     for (std::size_t i = 0; i < count; ++i) {
       std::array<double, variables> origin{};

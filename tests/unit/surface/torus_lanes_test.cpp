@@ -8,6 +8,7 @@
 
 #include "../../../src/surface/shape_table.h"
 #include "../../../src/surface/torus_lanes.h"
+#include "backlight/base/instruction_sets.h"
 
 namespace backlight {
 namespace {
@@ -63,7 +64,7 @@ TEST_P(TorusOverLanes, FindsTheFirstOfAllCrossings) {
 
 TEST_P(TorusOverLanes, HasTheSameBitsForEveryWidth) {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") == 0) GTEST_SKIP() << "this processor has no AVX2";
+  if (!has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
   const auto lines = lines_about(GetParam(), TorusLines::most);
   TorusLines wide;
   for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -74,9 +75,13 @@ TEST_P(TorusOverLanes, HasTheSameBitsForEveryWidth) {
     wide.start[k] = -lines[k].lambda_shift;
   }
   TorusLines narrow = wide;
+  TorusLines widest = wide;
   torus_roots_avx2(wide, lines.size(), GetParam().major, GetParam().minor);
   torus_roots_baseline(narrow, lines.size(), GetParam().major, GetParam().minor);
   for (std::size_t k = 0; k < lines.size(); ++k) EXPECT_EQ(wide.root[k], narrow.root[k]) << k;
+  if (!has_good_avx512()) return;
+  torus_roots_avx512(widest, lines.size(), GetParam().major, GetParam().minor);
+  for (std::size_t k = 0; k < lines.size(); ++k) EXPECT_EQ(wide.root[k], widest.root[k]) << k;
 #endif
 }
 
