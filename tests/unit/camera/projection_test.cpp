@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "backlight/camera/sampling.h"
 
@@ -113,23 +116,57 @@ TEST(Sampling, OneSampleIsThePixelCentre) {
   EXPECT_EQ(p.y, 3.5);
 }
 
-TEST(Sampling, PointsFillThePixelEvenly) {
-  // A low-discrepancy set of 256: each of 64 equal cells gets between 2 and 6 points.
-  int cells[8][8] = {};
-  for (int i = 0; i < 256; ++i) {
-    const ImagePoint p = sample_point({1, 1, 10, 20}, i, 256);
-    ASSERT_GE(p.x, 10.0);
-    ASSERT_LT(p.x, 11.0);
-    ASSERT_GE(p.y, 20.0);
-    ASSERT_LT(p.y, 21.0);
-    ++cells[static_cast<int>((p.x - 10.0) * 8)][static_cast<int>((p.y - 20.0) * 8)];
-  }
-  for (const auto& row : cells) {
-    for (const int count : row) {
-      EXPECT_GE(count, 2);
-      EXPECT_LE(count, 6);
+TEST(Sampling, AnyFirstPowerOfTwoIsOneInEachRectangle) {
+  for (int pixel = 0; pixel < 5; ++pixel) {
+    for (int k = 1; k <= 12; ++k) {
+      for (int i = 0; i <= k; ++i) {  // 2^i columns, 2^(k - i) rows
+        std::vector<int> cells(std::size_t{1} << unsigned(k), 0);
+        for (int n = 0; n < 1 << k; ++n) {
+          const ImagePoint p = sample_point({1, 1, pixel, 20}, n, 1 << k);
+          ASSERT_GE(p.x, pixel);
+          ASSERT_LT(p.x, pixel + 1);
+          ASSERT_GE(p.y, 20.0);
+          ASSERT_LT(p.y, 21.0);
+          const int column = static_cast<int>(std::ldexp(p.x - pixel, i));
+          const int row = static_cast<int>(std::ldexp(p.y - 20.0, k - i));
+          ++cells[static_cast<std::size_t>((row << i) + column)];
+        }
+        ASSERT_TRUE(std::ranges::all_of(cells, [](int count) { return count == 1; })) << k << ' ' << i;
+      }
     }
   }
+}
+
+// Over many pixels any sample, and what one coordinate says of the other or of the next sample, is as good as
+// by chance: else some edges would be wrong in the same way everywhere.
+TEST(Sampling, OverManyPixelsAnySampleIsAnywhere) {
+  constexpr int edge = 8, pixels = 64 * 400;
+  for (const int index : {0, 1, 2, 5, 16, 100}) {
+    std::array<std::array<int, edge * edge>, 3> cells{};
+    for (int i = 0; i < pixels; ++i) {
+      const ImagePoint a = unit_sample({3, 1, i % 160, i / 160}, index);
+      const ImagePoint b = unit_sample({3, 1, i % 160, i / 160 + 1}, index);
+      const auto cell = [](double x, double y) {
+        return static_cast<std::size_t>(static_cast<int>(x * edge) + edge * static_cast<int>(y * edge));
+      };
+      ++cells[0][cell(a.x, a.y)];
+      ++cells[1][cell(a.x, b.x)];
+      ++cells[2][cell(std::fmod(a.x * edge, 1.0), std::fmod(a.y * edge, 1.0))];
+    }
+    for (const auto& counts : cells) {
+      double chi_squared = 0.0;
+      for (const int count : counts) chi_squared += (count - 400.0) * (count - 400.0) / 400.0;
+      EXPECT_LT(chi_squared, 120.0) << index;  // of 63 degrees of freedom: once in 50,000
+      EXPECT_GT(chi_squared, 25.0) << index;
+    }
+  }
+}
+
+TEST(Sampling, PartsOfAPixelHaveTheirOwn) {
+  const ImagePoint whole = unit_sample({1, 1, 10, 20}, 0);
+  const ImagePoint part = unit_sample({1, 1, 10, 20, 1}, 0);
+  EXPECT_NE(whole.x, part.x);
+  EXPECT_NE(whole.y, part.y);
 }
 
 TEST(Sampling, NeighbouringPixelsAndSeedsDiffer) {
