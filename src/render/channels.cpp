@@ -1,8 +1,13 @@
 #include "channels.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <string_view>
+
+#include "pixel_blocks.h"
 
 namespace backlight {
 namespace {
@@ -78,6 +83,39 @@ PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
     if (asked_for(scene, channel.aov)) data_.push_back(channel.value);
   }
   for (std::size_t c = 0; c < 4; ++c) colour_[c] = image.plane(first_ + c).data();
+}
+
+std::uint64_t PixelWriter::block(std::size_t at, std::size_t width, const TileLight& light,
+                                 std::size_t first) const {
+  float values[4][block_pixels];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double* const from = light.rgb[c].data() + first;
+    for (std::size_t i = 0; i < block_pixels; ++i) values[c][i] = static_cast<float>(0.0 + from[i]);
+  }
+  const std::uint8_t* const covered = light.covered.data() + first;
+  for (std::size_t i = 0; i < block_pixels; ++i) values[3][i] = static_cast<float>(covered[i]);
+  for (std::size_t c = 0; c < 4; ++c) {
+    float* const plane = colour_[c] + at;
+    // Of the block's order, each even pixel and the next one are neighbours in a row.
+    for (std::size_t i = 0; i < block_pixels; i += 2) {
+      const BlockPlace place = block_order[i];
+      std::memcpy(plane + static_cast<std::size_t>(place.down) * width + place.right, &values[c][i],
+                  2 * sizeof(float));
+    }
+  }
+  std::int32_t most = 0;  // by the bits, in whose order infinity and NaNs are beyond all numbers
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const float value : values[c])
+      most = std::max(most, std::bit_cast<std::int32_t>(value) & 0x7fffffff);
+  }
+  if (most < 0x7f800000) return 0;
+  std::uint64_t non_finite = 0;
+  for (std::size_t i = 0; i < block_pixels; ++i) {
+    const bool finite =
+        std::isfinite(values[0][i]) && std::isfinite(values[1][i]) && std::isfinite(values[2][i]);
+    non_finite += finite ? 0 : 1;
+  }
+  return non_finite;
 }
 
 bool PixelWriter::write(std::size_t channel, int x, int y, double value) const {

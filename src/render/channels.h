@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "backlight/film/image.h"
-#include "backlight/trace/tracer.h"
+#include "backlight/trace/sheet_tracer.h"
 
 namespace backlight {
 
@@ -42,6 +42,10 @@ class PixelWriter {
     return none == 0.0F;
   }
   bool data(int x, int y, const PixelData& data) const;
+
+  /// The colours of a whole block (pixel_blocks.h) of one sample each, which begin at `first` of the tile's
+  /// light; returns how many are not finite as floats. `at`: of its first pixel; `width`: of the data window.
+  std::uint64_t block(std::size_t at, std::size_t width, const TileLight& light, std::size_t first) const;
 
  private:
   bool write(std::size_t channel, int x, int y, double value) const;

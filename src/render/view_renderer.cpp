@@ -2,24 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <exception>
 
 namespace backlight {
 namespace {
-
-struct BlockPlace {
-  int right;
-  int down;
-};
-
-constexpr auto block_order = [] {
-  std::array<BlockPlace, block_size * block_size> order{};
-  for (unsigned i = 0; i < order.size(); ++i) {
-    order[i] = {static_cast<int>((i & 1U) | ((i >> 1U) & 2U) | ((i >> 2U) & 4U)),
-                static_cast<int>(((i >> 1U) & 1U) | ((i >> 2U) & 2U) | ((i >> 3U) & 4U))};
-  }
-  return order;
-}();
 
 // Whether the rest of a tile's samples will take less than a moment, by what those before have taken: when a
 // run is stopped, or looked at, the tile is then not traced in vain.
@@ -40,8 +27,8 @@ void ViewRenderer::write_all(ThreadMemory& m, const std::vector<SurfaceRecord>* 
   const PixelWriter writer = writer_;
   std::uint8_t* const done = done_.data();
   const PixelBox window = image_.layout().data;
-  const TilePixel* const pixels = m.pixels.data();
-  const std::size_t count = m.pixels.size();
+  const TilePixel* const pixels = m.missing.pixels.data();
+  const std::size_t count = m.missing.pixels.size();
   for (std::size_t k = 0; k < count; ++k) {
     const auto [x, y] = pixels[k];
     PixelEstimate pixel = estimate(k);
@@ -54,6 +41,34 @@ void ViewRenderer::write_all(ThreadMemory& m, const std::vector<SurfaceRecord>* 
     done[at] = 1;
   }
   m.samples += samples;
+  m.scratch.counts.non_finite += non_finite;
+}
+
+void ViewRenderer::write_colours(ThreadMemory& m) {
+  const std::vector<TilePixel>& pixels = m.missing.pixels;
+  const TileLight& light = m.light;
+  const PixelBox window = image_.layout().data;
+  const auto width = static_cast<std::size_t>(window.width());
+  auto whole = m.missing.whole.begin();
+  std::uint64_t non_finite = 0;
+  for (std::size_t k = 0; k < pixels.size();) {
+    const auto [x, y] = pixels[k];
+    const std::size_t at =
+        static_cast<std::size_t>(y - window.y0) * width + static_cast<std::size_t>(x - window.x0);
+    if (whole != m.missing.whole.end() && *whole == k) {
+      non_finite += writer_.block(at, width, light, k);
+      for (std::size_t row = 0; row < block_size; ++row)
+        std::memset(done_.data() + at + row * width, 1, block_size);
+      ++whole;
+      k += block_pixels;
+    } else {
+      non_finite += writer_.colour(at, LinearRgb{0.0} + light.colour(k), double(light.covered[k])) ? 0 : 1;
+      done_[at] = 1;
+      ++k;
+    }
+  }
+  const std::uint64_t count = pixels.size();
+  if (count > 0) m.samples += SampleCounts{count, count, 1, 1, 0};
   m.scratch.counts.non_finite += non_finite;
 }
 
@@ -82,14 +97,14 @@ void ViewRenderer::tile(const PixelBox& box, const std::atomic<bool>& stop, Thre
 }
 
 void ViewRenderer::tile_to_tolerance(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {
-  list_missing(box, m.pixels);
-  if (m.pixels.empty()) return;
+  list_missing(box, m.missing);
+  if (m.missing.pixels.empty()) return;
   const auto trace = [&](std::span<const TilePixel> pixels, int index, std::vector<PixelSample>& samples) {
     if (stop.load(std::memory_order_relaxed)) return false;
     trace_samples(pixels, index, m, samples);
     return true;
   };
-  if (!m.sampler->tile(box, m.pixels, trace)) return;
+  if (!m.sampler->tile(box, m.missing.pixels, trace)) return;
   write_all(m, nullptr, [&](std::size_t k) { return m.sampler->estimates()[k]; });
 }
 
@@ -110,7 +125,7 @@ void ViewRenderer::trace_samples(std::span<const TilePixel> pixels, int index, T
       at_pixel(x, y, [&] { trace_point(point, m.scratch, samples[k]); });
     } else if (m.light.covered[k] != 0) {
       samples[k].covered = true;
-      samples[k].colour = m.light.colour[k];
+      samples[k].colour = m.light.colour(k);
     }
   }
 }
@@ -123,48 +138,31 @@ void ViewRenderer::trace_point(const ImagePoint& point, Scratch& scratch, PixelS
   sample.colour = tracer_.colour(*ray, effects, scratch);
 }
 
-void ViewRenderer::list_missing(const PixelBox& box, std::vector<TilePixel>& pixels) const {
-  pixels.resize(static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()));
-  TilePixel* next = pixels.data();
-  const int width = image_.layout().data.width();
-  for (int top = box.y0; top < box.y1; top += block_size) {
-    for (int left = box.x0; left < box.x1; left += block_size) {
-      const bool whole = left + block_size <= box.x1 && top + block_size <= box.y1;
-      const std::uint8_t* const done = done_.data() + image_.offset(left, top);
-      for (const auto [right, down] : block_order) {
-        const int x = left + right;
-        const int y = top + down;
-        const bool inside = whole || (x < box.x1 && y < box.y1);
-        if (inside && done[down * width + right] == 0) *next++ = {x, y};
-      }
-    }
-  }
-  pixels.resize(static_cast<std::size_t>(next - pixels.data()));
-}
-
 void ViewRenderer::tile_in_sheets(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {
-  list_missing(box, m.pixels);
+  list_missing(box, m.missing);
   const Scene& scene = tracer_.scene();
   const int samples = scene.film.samples;
   const bool records = samples == 1 && has_data_channels(scene) && !has_light_channels(scene);
   if (samples > 1) {
-    m.sums.assign(m.pixels.size(), LinearRgb{0.0});
-    m.covered.assign(m.pixels.size(), 0);
+    m.sums.assign(m.missing.pixels.size(), LinearRgb{0.0});
+    m.covered.assign(m.missing.pixels.size(), 0);
   }
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < samples; ++i) {
     if (stop.load(std::memory_order_relaxed) && !is_worth_finishing(begin, i, samples)) return;
-    sheets_->trace(m.pixels, settings_.image_number, i, eye_, records, *m.sheet, m.scratch, m.light);
-    for (std::size_t k = 0; k < m.pixels.size() && samples > 1; ++k) {
+    sheets_->trace(m.missing.pixels, settings_.image_number, i, eye_, records, *m.sheet, m.scratch, m.light);
+    for (std::size_t k = 0; k < m.missing.pixels.size() && samples > 1; ++k) {
       if (m.light.covered[k] == 0) continue;
-      m.sums[k] += m.light.colour[k];
+      m.sums[k] += m.light.colour(k);
       ++m.covered[k];
     }
   }
   const std::vector<SurfaceRecord>* known = records ? &m.light.record : nullptr;
-  if (samples == 1) {
+  if (samples == 1 && !has_stars_ && !has_data_) {
+    write_colours(m);
+  } else if (samples == 1) {
     write_all(m, known, [&](std::size_t k) {
-      return PixelEstimate{LinearRgb{0.0} + m.light.colour[k], double(m.light.covered[k]), 1};
+      return PixelEstimate{LinearRgb{0.0} + m.light.colour(k), double(m.light.covered[k]), 1};
     });
   } else {
     write_all(m, known, [&](std::size_t k) {
@@ -185,7 +183,7 @@ void ViewRenderer::pixel(int x, int y, ThreadMemory& m) {
     sum += sample.colour;
     ++covered;
   }
-  m.pixels = {{x, y}};
+  m.missing = {{{x, y}}, {}};
   write_all(m, nullptr, [&](std::size_t) {
     return PixelEstimate{sum / double(samples), double(covered) / samples, samples};
   });

@@ -13,10 +13,9 @@
 #include "backlight/render/adaptive_sampling.h"
 #include "backlight/render/render.h"
 #include "channels.h"
+#include "pixel_blocks.h"
 
 namespace backlight {
-
-inline constexpr int block_size = 8;  ///< a sheet of rays is a block's
 
 // What one thread works with.
 struct ThreadMemory {
@@ -30,7 +29,7 @@ struct ThreadMemory {
   Scratch scratch;
   std::unique_ptr<SheetScratch, void (*)(SheetScratch*)> sheet;
   TileLight light;
-  std::vector<TilePixel> pixels;
+  MissingPixels missing;
   std::vector<LinearRgb> sums;
   std::vector<int> covered;
   std::optional<AdaptiveSampler> sampler;  // where the number of samples is chosen
@@ -78,14 +77,17 @@ class ViewRenderer {
 
   void trace_point(const ImagePoint& point, Scratch& scratch, PixelSample& sample) const;
 
-  // Writes the pixels of m.pixels, and that they are done. `estimate(k)`: the colour of one; `records`: what
+  // Writes the pixels of m.missing, and that they are done. `estimate(k)`: the colour of one; `records`: what
   // each of them sees, where that is known.
   template <class Estimate>
   void write_all(ThreadMemory& m, const std::vector<SurfaceRecord>* records, const Estimate& estimate);
 
-  // In squares of a sheet each, and those within them in squares within squares: neighbours in this order are
-  // neighbours in the image.
-  void list_missing(const PixelBox& box, std::vector<TilePixel>& pixels) const;
+  // The same for one sample of each and no other channel than its colour.
+  void write_colours(ThreadMemory& m);
+
+  void list_missing(const PixelBox& box, MissingPixels& missing) const {
+    missing.list(box, image_.layout(), done_.data());
+  }
 
   // The same as pixel(), for all at once.
   void tile_in_sheets(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m);

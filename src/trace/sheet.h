@@ -103,8 +103,10 @@ struct PointSheet {
   bool light_delay = true;
   double frame = 0;  ///< index of the surface's frame
   int lane[sheet_size];
-  alignas(64) double direction[3][sheet_size];  ///< of the camera ray, camera frame
-  alignas(64) double lambda[sheet_size];
+  int whole = -1;              ///< the sheet of rays, all of whose hits these are; or -1:
+  const double* direction[3];  ///< of the camera ray, camera frame: that sheet's or `gathered`
+  const double* lambda;
+  alignas(64) double gathered[4][sheet_size];  ///< directions and λ, of several sheets
   // resolve():
   alignas(64) double position[3][sheet_size];
   alignas(64) double normal[3][sheet_size];  ///< on the side that is seen

@@ -13,6 +13,11 @@ BACKLIGHT_LANES LaneVec3<V> load3(const double (&from)[3][sheet_size], int at) {
 }
 
 template <class V>
+BACKLIGHT_LANES LaneVec3<V> load3(const double* const (&from)[3], int at) {
+  return {V::load(from[0] + at), V::load(from[1] + at), V::load(from[2] + at)};
+}
+
+template <class V>
 BACKLIGHT_LANES void store3(LaneVec3<V> a, double (&to)[3][sheet_size], int at) {
   a.x.store(to[0] + at);
   a.y.store(to[1] + at);

@@ -55,7 +55,8 @@ SheetScratch::SheetScratch(const SheetScene& scene, std::size_t lights)
 
 CameraRay SheetShader::camera_ray_of(int lane) const {
   CameraRay ray;
-  ray.direction = vec(work_.points.direction, lane);
+  const PointSheet& p = work_.points;
+  ray.direction = {p.direction[0][lane], p.direction[1][lane], p.direction[2][lane]};
   ray.light_delay = work_.points.light_delay;
   ray.offset = eye_offset(tracer_.scene().camera, eye_);
   ray.displaced = eye_ != 0;

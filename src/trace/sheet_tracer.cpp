@@ -41,15 +41,14 @@ class SheetMaker {
     const int samples = scene_.film.samples;
     for (std::size_t begin = 0; begin < pixels.size(); begin += sheet_size) {
       count_ = static_cast<int>(std::min<std::size_t>(sheet_size, pixels.size() - begin));
-      for (int i = 0; i < count_; ++i) {
-        const TilePixel& pixel = pixels[begin + static_cast<std::size_t>(i)];
-        if (samples == 1) {
-          x_[i] = pixel.x + 0.5;
-          y_[i] = pixel.y + 0.5;
-          continue;
-        }
+      const TilePixel* const of = pixels.data() + begin;
+      for (int i = 0; i < count_ && samples == 1; ++i) {  // their centres, in vectors of the compiler's
+        x_[i] = of[i].x + 0.5;
+        y_[i] = of[i].y + 0.5;
+      }
+      for (int i = 0; i < count_ && samples > 1; ++i) {
         const ImagePoint point =
-            sample_point({scene_.film.seed, image_number, pixel.x, pixel.y}, sample, samples);
+            sample_point({scene_.film.seed, image_number, of[i].x, of[i].y}, sample, samples);
         x_[i] = point.x;
         y_[i] = point.y;
       }
@@ -345,9 +344,6 @@ class SheetPainter {
     for (std::size_t s = 0; s < work_.sheets.size(); ++s) {
       const TileSheet& sheet = work_.sheets[s];
       if (sheet.effects != &effects) continue;
-      for (int lane = 0; lane < sheet.rays.count; ++lane) {
-        light_.covered[static_cast<std::size_t>(sheet.place[lane])] = 1;
-      }
       std::uint64_t left = first_bits(sheet.rays.count);
       while (left != 0) {
         const double who = sheet.rays.who[__builtin_ctzll(left)];
@@ -380,6 +376,12 @@ class SheetPainter {
   }
 
   void without_surface(const TileSheet& sheet, std::uint64_t mask, bool far) {
+    if (!far && !records_ && !tracer_.scene().sky.emits) {
+      for (; mask != 0; mask &= mask - 1) {
+        light_.set_colour(static_cast<std::size_t>(sheet.place[__builtin_ctzll(mask)]), LinearRgb{0.0});
+      }
+      return;
+    }
     for (; mask != 0; mask &= mask - 1) {
       const int lane = __builtin_ctzll(mask);
       one_ray(sheet, lane, far ? work_.far_hits[static_cast<std::size_t>(sheet.place[lane])] : FirstHit{});
@@ -390,33 +392,31 @@ class SheetPainter {
   void one_ray(const TileSheet& sheet, int lane, const FirstHit& hit) {
     const auto place = static_cast<std::size_t>(sheet.place[lane]);
     const bool dark = !hit.found() && !tracer_.scene().sky.emits;
-    if (dark && !records_) {
-      light_.colour[place] = LinearRgb{0.0};
-      return;
-    }
     const CameraRay ray = camera_ray_of(tracer_.scene(), sheet.rays, lane, eye_);
     scratch_.rays.start(ray);
-    light_.colour[place] = dark ? LinearRgb{0.0} : tracer_.colour_of(ray, hit, *sheet.effects, scratch_);
+    light_.set_colour(place, dark ? LinearRgb{0.0} : tracer_.colour_of(ray, hit, *sheet.effects, scratch_));
     if (records_) light_.record[place] = tracer_.surface_of(ray, hit, scratch_);
   }
 
   // Adds lanes of a sheet to the points, as many as there is room for; returns the others.
   std::uint64_t gather(const Occupant& occupant, const SheetScratch::Part& part) {
     PointSheet& p = work_.points;
-    const auto sheet_index = static_cast<std::size_t>(part.sheet);
-    const TileSheet& sheet = work_.sheets[sheet_index];
-    if (part.mask == ~std::uint64_t{0}) {
-      for (int k = 0; k < 3; ++k) std::copy_n(sheet.rays.direction[k], sheet_size, p.direction[k]);
-      std::copy_n(sheet.rays.lambda, sheet_size, p.lambda);
-    }
+    const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(part.sheet)];
     const int first = p.count;
     std::uint64_t left = part.mask;
+    if (left == ~std::uint64_t{0}) {
+      take_whole(part.sheet, sheet.rays);
+      left = 0;
+    } else if (first == 0) {
+      p.whole = -1;
+      for (int k = 0; k < 3; ++k) p.direction[k] = p.gathered[k];
+      p.lambda = p.gathered[3];
+    }
     for (; left != 0 && p.count < sheet_size; left &= left - 1, ++p.count) {
       const int lane = __builtin_ctzll(left);
       p.lane[p.count] = part.sheet * sheet_size + lane;
-      if (part.mask == ~std::uint64_t{0}) continue;
-      for (int k = 0; k < 3; ++k) p.direction[k][p.count] = sheet.rays.direction[k][lane];
-      p.lambda[p.count] = sheet.rays.lambda[lane];
+      for (int k = 0; k < 3; ++k) p.gathered[k][p.count] = sheet.rays.direction[k][lane];
+      p.gathered[3][p.count] = sheet.rays.lambda[lane];
     }
     if (occupant.lanes->kind != LaneSurface::Kind::other) return left;
     for (int i = first; i < p.count; ++i) {
@@ -427,13 +427,21 @@ class SheetPainter {
     return left;
   }
 
+  void take_whole(int index, const SheetRays& rays) {
+    PointSheet& p = work_.points;
+    p.whole = index;
+    for (int k = 0; k < 3; ++k) p.direction[k] = rays.direction[k];
+    p.lambda = rays.lambda;
+    for (int i = 0; i < sheet_size; ++i) p.lane[i] = index * sheet_size + i;
+    p.count = sheet_size;
+  }
+
   // The colours of the points gathered, all of one surface; then there are none.
   void paint_points(const Occupant& occupant, const Effects& effects) {
     PointSheet& p = work_.points;
     p.padded = padded_count(p.count);
     for (int i = p.count; i < p.padded; ++i) {
-      for (auto& row : p.direction) row[i] = row[p.count - 1];
-      p.lambda[i] = p.lambda[p.count - 1];
+      for (auto& row : p.gathered) row[i] = row[p.count - 1];
     }
     shader_.begin_points(occupant);
     if (scene_.lit_in_lanes(occupant.frame) && shader_.shade(occupant, effects)) {
@@ -450,10 +458,15 @@ class SheetPainter {
   void put_colours(const Occupant& occupant) {
     const PointSheet& p = work_.points;
     const bool other = occupant.lanes->kind == LaneSurface::Kind::other;
+    if (p.whole >= 0 && !other && !records_) {
+      const int first = work_.sheets[static_cast<std::size_t>(p.whole)].place[0];  // of 64 neighbours
+      for (std::size_t k = 0; k < 3; ++k) std::copy_n(p.rgb[k], sheet_size, light_.rgb[k].data() + first);
+      return;
+    }
     for (int i = 0; i < p.count; ++i) {
       const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
       const auto place = static_cast<std::size_t>(sheet.place[p.lane[i] % sheet_size]);
-      light_.colour[place] = {p.rgb[0][i], p.rgb[1][i], p.rgb[2][i]};
+      light_.set_colour(place, {p.rgb[0][i], p.rgb[1][i], p.rgb[2][i]});
       if (other && work_.hits[i].unresolved) ++scratch_.counts.unresolved;
       if (records_) light_.record[place] = record_of(i);
     }
@@ -504,15 +517,24 @@ std::unique_ptr<SheetScratch, void (*)(SheetScratch*)> SheetTracer::make_scratch
 
 void SheetTracer::trace(std::span<const TilePixel> pixels, std::int64_t image_number, int sample, int eye,
                         bool records, SheetScratch& work, Scratch& scratch, TileLight& light) const {
-  light.covered.assign(pixels.size(), 0);
   light.record.assign(records ? pixels.size() : 0, SurfaceRecord{});
   SheetMaker(tracer_->scene(), scene_->kernels(), work).make(pixels, image_number, sample);
   std::size_t rays = 0;
   for (const auto& sheet : work.sheets) rays += static_cast<std::size_t>(sheet.rays.count);
   scratch.counts.primary += rays;
-  light.colour.resize(pixels.size());
-  if (rays < pixels.size()) std::ranges::fill(light.colour, LinearRgb{0.0});
+  const bool all_shown = rays == pixels.size();
+  light.covered.assign(pixels.size(), all_shown ? 1 : 0);
+  for (std::vector<double>& channel : light.rgb) {
+    channel.resize(pixels.size());
+    if (!all_shown) std::ranges::fill(channel, 0.0);
+  }
   if (rays == 0) return;
+  for (std::size_t i = 0; !all_shown && i < work.sheets.size(); ++i) {
+    const TileSheet& sheet = work.sheets[i];
+    for (int lane = 0; lane < sheet.rays.count; ++lane) {
+      light.covered[static_cast<std::size_t>(sheet.place[lane])] = 1;
+    }
+  }
   SheetSearch(*tracer_, *scene_, eye, work, scratch).find();
   SheetPainter(*tracer_, *scene_, eye, records, work, scratch, light).paint();
 }

@@ -5,6 +5,7 @@
 // solved for several rays in one instruction. The Tracer is the law: one ray at a time, every object asked.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -28,9 +29,16 @@ struct TilePixel {
 
 /// One sample of each pixel of a tile.
 struct TileLight {
-  std::vector<LinearRgb> colour;      ///< what Tracer::colour gives for its ray; 0 where there is none
-  std::vector<std::uint8_t> covered;  ///< whether the projection shows anything there
-  std::vector<SurfaceRecord> record;  ///< what Tracer::surface gives, when asked for
+  std::array<std::vector<double>, 3> rgb;  ///< what Tracer::colour gives for its ray; 0 where there is none
+  std::vector<std::uint8_t> covered;       ///< whether the projection shows anything there
+  std::vector<SurfaceRecord> record;       ///< what Tracer::surface gives, when asked for
+
+  [[nodiscard]] LinearRgb colour(std::size_t pixel) const {
+    return {rgb[0][pixel], rgb[1][pixel], rgb[2][pixel]};
+  }
+  void set_colour(std::size_t pixel, const LinearRgb& colour) {
+    for (int k = 0; k < 3; ++k) rgb[static_cast<std::size_t>(k)][pixel] = colour[k];
+  }
 };
 
 class SheetScene;
