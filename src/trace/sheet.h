@@ -79,13 +79,15 @@ struct Bundle {
   double cosine = -1.0;  ///< of the half-angle; rounded down
   double sine = 1e-14;
   double time = 0.0;  ///< of a bundle of light: the middle of the emission times, from the camera event's...
-  double half_time = 0.0;  ///< ...and how far they are from it
+  double half_time = 0.0;          ///< ...and how far they are from it
+  double reach = __builtin_inf();  ///< the longest way of that light
 };
 
 /// Occluders as a light has them: each one's motion relative to the light, and where the light is in its
 /// frame.
 struct LampTable {
   int count = 0;
+  bool moving = true;     ///< false: every w is 0
   double* celerity[3]{};  ///< w, of the occluder's frame, in the light's axes
   double* gamma = nullptr;
   double* inverse_gamma_plus_one = nullptr;
@@ -167,6 +169,7 @@ struct LightSpan {
   double least_cosine = 2.0;
   double begin = 1e300;  ///< of the emission times, from the camera event's
   double end = -1e300;
+  double reach = 0.0;
 };
 
 /// One occluder's part in a shadow.

@@ -138,25 +138,94 @@ struct KernelsOf {
     }
   }
 
-  static void overlapping_lamps(const LampTable& from, const Bundle& b, LampTable& to) {
+  static BACKLIGHT_LANES V size_of(V a) { return select(a < V(0.0), -a, a); }
+
+  // The bundle as an occluder has it: docs/physics.md equations (17) to (17b).
+  struct LampBundle {
+    V3 axis;
+    V cosine, sine, time, half_time, reach, angle;
+
+    explicit BACKLIGHT_LANES LampBundle(const Bundle& b)
+        : axis(b.axis),
+          cosine(b.cosine),
+          sine(b.sine),
+          time(b.time),
+          half_time(b.half_time),
+          reach(b.reach * (1.0 + 1e-9)),
+          // An upper bound of the arc sine up to 30 degrees; beyond, no bound is used.
+          angle(b.cosine > 0.87 ? b.sine * (1.0 + 0.19 * b.sine * b.sine) : 10.0) {}
+  };
+
+  // Equation (17) for a lamp that moves by up to |w|τ in any direction.
+  static BACKLIGHT_LANES Mask may_shade_at_all(const LampBundle& b, V3 w, V3 x, V gamma, V turn, V radius) {
+    const V p = dot(x, w);
+    const V square = dot(x, x) - radius * radius;
+    const Mask outside = square > V(0.0);
+    const V q = sqrt(select(outside, square, V(0.0)));
+    const V3 m = (q - p * turn) * w - x;
+    const V level = q * gamma - p - V(1e-13) * gamma * (q + radius);
+    const V along = dot(m, b.axis);
+    return ~outside | (along >= level * b.cosine - radius * b.sine) |
+           (level * b.sine + radius * b.cosine <= V(0.0));
+  }
+
+  // Equations (17a) and (17b).
+  template <bool moving>
+  static BACKLIGHT_LANES Mask may_shade(const LampTable& table, const LampBundle& b, int i) {
+    const V one = V(1.0), zero = V(0.0), tau = b.half_time;
+    V3 x{V::load(table.place[0] + i), V::load(table.place[1] + i), V::load(table.place[2] + i)}, w;
+    const V radius = V::load(table.radius + i);
+    V gamma = one, turn = V(0.5), speed = zero, d = one, spread = zero, least = one, inverse = one, xk = zero;
+    if (moving) {
+      w = {V::load(table.celerity[0] + i), V::load(table.celerity[1] + i), V::load(table.celerity[2] + i)};
+      gamma = V::load(table.gamma + i);
+      turn = V::load(table.inverse_gamma_plus_one + i);
+      speed = V::load(table.speed + i);
+      x = x - b.time * w;
+      const V wa = dot(w, b.axis);
+      d = gamma - wa;
+      spread = speed * b.angle;
+      const V slowest = one / (gamma + speed);
+      least = select(d - spread > slowest, d - spread, slowest);
+      inverse = one / d;
+      xk = wa * turn - one;
+    }
+    // What rounding makes of lengths in the occluder's frame.
+    const V extent = size_of(x.x) + size_of(x.y) + size_of(x.z) + (moving ? tau * gamma : zero);
+    const V noise = V(4e-15) * (moving ? gamma / least : one) * extent;
+    // Where the occluder is along the axis and across it, and how the lamp moves.
+    const V xw = moving ? dot(x, w) : zero, square = dot(x, x);
+    const V ahead = -(dot(x, b.axis) + (moving ? xk * xw : zero)) * inverse;
+    V miss = square - ahead * ahead, shift = zero;
+    if (moving) {
+      const V moved = inverse - gamma, moved_square = speed * speed - moved * moved;
+      const V both = size_of(xw + ahead * moved);
+      const V nearest = select(both < tau * moved_square, both / moved_square, tau);
+      miss = miss - nearest * (V(2.0) * both - nearest * moved_square);
+      shift = tau * size_of(moved);
+    }
+    const V farthest = ahead + shift + noise;
+    const V angle = moving ? b.angle / least : b.angle;
+    const V reach = radius + select(farthest > zero, farthest, zero) * angle + noise;
+    const V cosine = one - V(0.5) * angle * angle;
+    const Mask aside = miss * cosine * cosine > reach * reach + V(10.0) * noise * extent;
+    const Mask behind = farthest < -radius;
+    const Mask beyond = ahead - shift - noise - radius > b.reach * (d + spread);
+    const Mask narrow = angle < V(0.5);
+    const Mask meets = ~(narrow & (aside | behind | beyond));
+    if (bits(narrow) == (1U << N) - 1U) return meets;
+    if (!moving) w = {zero, zero, zero};
+    return meets & (narrow | may_shade_at_all(b, w, x, gamma, turn, radius + speed * tau));
+  }
+
+  static void overlapping_lamps(const LampTable& from, const Bundle& bundle, LampTable& to) {
     to.count = 0;
+    to.moving = from.moving;
+    const LampBundle b(bundle);
     for (int i = 0; i < from.count; i += N) {
-      const V3 w{V::load(from.celerity[0] + i), V::load(from.celerity[1] + i), V::load(from.celerity[2] + i)};
-      const V3 x0{V::load(from.place[0] + i), V::load(from.place[1] + i), V::load(from.place[2] + i)};
-      const V gamma = V::load(from.gamma + i);
-      const V radius = V::load(from.radius + i) + V::load(from.speed + i) * V(b.half_time);
-      const V3 x = x0 - V(b.time) * w;
-      const V p = dot(x, w);
-      const V square = dot(x, x) - radius * radius;
-      const Mask outside = square > V(0.0);
-      const V q = sqrt(select(outside, square, V(0.0)));
-      const V3 m = (q - p * V::load(from.inverse_gamma_plus_one + i)) * w - x;
-      const V level = q * gamma - p - V(1e-13) * gamma * (q + radius);
-      const V along = dot(m, V3(b.axis));
-      const Mask meets = ~outside | (along >= level * V(b.cosine) - radius * V(b.sine)) |
-                         (level * V(b.sine) + radius * V(b.cosine) <= V(0.0));
-      const unsigned hit = bits(meets) & (from.count - i < N ? (1U << (from.count - i)) - 1U : ~0U);
-      if (hit == 0) continue;
+      const unsigned all = from.count - i < N ? (1U << (from.count - i)) - 1U : ~0U;
+      const unsigned hit =
+          bits(from.moving ? may_shade<true>(from, b, i) : may_shade<false>(from, b, i)) & all;
       for (unsigned left = hit; left != 0; left &= left - 1) {
         const int k = i + __builtin_ctz(left);
         const int j = to.count++;
@@ -175,7 +244,7 @@ struct KernelsOf {
   }
 
   // The light goes from x₀ - t w, the lamp relative to the occluder's centre at the moment t of emission,
-  // along n' = n + (w·n/(γ+1) - R) w with n = -way: docs/physics.md equation (17a). Whether that way meets a
+  // along n' = n + (w·n/(γ+1) - R) w with n = -way: docs/physics.md equation (17c). Whether that way meets a
   // ball is a question of signs; the margins are some hundred times the rounding at γ = 30, here and where
   // the law asks the same: what lies within them is left to the law.
   static std::uint64_t sift(const LampTable& table, int which, double time, int first, int last,
@@ -231,7 +300,7 @@ struct KernelsOf {
   static void gather(const LaneLamp& lamp, const SheetRays& rays, const double* axis, LightSpan& span) {
     const int step = axis == nullptr ? 4 * N : N;
     V3 sum{V(0.0), V(0.0), V(0.0)};
-    V least = span.least_cosine, first = span.begin, last = span.end;
+    V least = span.least_cosine, first = span.begin, last = span.end, reach = span.reach;
     const V3 a = axis == nullptr ? sum : V3{V(axis[0]), V(axis[1]), V(axis[2])};
     for (int i = 0; i < rays.padded; i += step) {
       const Mask hit = V::load(rays.who + i) >= V(0.0);
@@ -253,6 +322,7 @@ struct KernelsOf {
       least = select(hit, select(cosine >= least, least, select(cosine < least, cosine, V(-1.0))), least);
       first = select(hit & (time < first), time, first);
       last = select(hit & (time > last), time, last);
+      reach = select(hit & ~(size <= reach), size, reach);
     }
     span.sum[0] += sum_of(sum.x);
     span.sum[1] += sum_of(sum.y);
@@ -260,6 +330,7 @@ struct KernelsOf {
     span.least_cosine = least_of(least);
     span.begin = least_of(first);
     span.end = -least_of(-last);
+    span.reach = -least_of(-reach);
   }
 
   static BACKLIGHT_LANES Mask in_cone(const SheetRays& rays, const LaneCone& cone, int i) {
@@ -381,13 +452,15 @@ struct KernelsOf {
 
   static bool light_bundle(const PointSheet& p, int begin_at, int end_at, Bundle& bundle) {
     V3 sum{V(0.0), V(0.0), V(0.0)};
-    V first = __builtin_inf(), last = -__builtin_inf();
+    V first = __builtin_inf(), last = -__builtin_inf(), reach = 0.0;
     bool any = false;
     for (int i = begin_at; i < end_at; i += N) {
       const Mask lit = V::load(p.lit + i) > V(0.0);
       if (bits(lit) == 0) continue;
       any = true;
-      const V share = select(lit, V(-1.0) / V::load(p.way_length + i), V(0.0));
+      const V size = V::load(p.way_length + i);
+      const V share = select(lit, V(-1.0) / size, V(0.0));
+      reach = select(lit & ~(size <= reach), size, reach);
       sum = sum + share * load3<V>(p.way, i);
       const V time = V::load(p.relative_emission_time + i);
       first = select(lit & (time < first), time, first);
@@ -398,6 +471,7 @@ struct KernelsOf {
     const double size = __builtin_sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
     const double begin = least_of(first), end = -least_of(-last);
     bundle = Bundle{};
+    bundle.reach = -least_of(-reach);
     bundle.time = 0.5 * (begin + end);
     const double larger = end > -begin ? end : -begin;
     bundle.half_time = 0.5 * (end - begin) + 1e-14 * (larger > 0.0 ? larger : -larger);

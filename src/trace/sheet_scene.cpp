@@ -235,6 +235,7 @@ LampView SheetScene::view_of(const Scene& scene, const Hub& hub, std::size_t lig
   result.bounded.resize(occluders_.size());
   LampTable& table = result.bounded.table();
   table.count = 0;
+  table.moving = false;
   for (std::size_t i = 0; i < occluders_.size(); ++i) {
     const Occupant& occluder = occluders_[i];
     const FrameView& view = hub.frames[static_cast<std::size_t>(occluder.frame)];
@@ -256,6 +257,7 @@ LampView SheetScene::view_of(const Scene& scene, const Hub& hub, std::size_t lig
     table.gamma[j] = motion.gamma();
     table.inverse_gamma_plus_one[j] = motion.inverse_gamma_plus_one();
     table.speed[j] = glm::length(w) * (1.0 + 1e-15);
+    table.moving = table.moving || table.speed[j] > 0.0;
     // Room for the rounding of `place`, and of the points that shadow rays start from.
     const double room =
         1e-13 * (glm::length(here) + glm::length(view.camera_event.x) + glm::length(sphere.centre) +

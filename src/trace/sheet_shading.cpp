@@ -107,6 +107,7 @@ void SheetShader::begin_tile(const Effects& effects) {
     // Twice the room of a chunk's own bundle, which must lie inside this one.
     bundle.cosine = std::max(-1.0, std::min(span.least_cosine, 1.0) - 1e-12);
     bundle.sine = std::sqrt(std::max(0.0, 1.0 - bundle.cosine * bundle.cosine)) + 1e-12;
+    bundle.reach = span.reach * (1.0 + 1e-12);
     bundle.time = 0.5 * (span.begin + span.end);
     bundle.half_time = 0.5 * (span.end - span.begin) * (1.0 + 1e-9) +
                        1e-12 * std::max(std::abs(span.begin), std::abs(span.end));
