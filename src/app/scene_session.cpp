@@ -2,17 +2,24 @@
 
 #include <utility>
 
+#include "backlight/base/memory.h"
 #include "backlight/scene/reader.h"
 #include "exit_codes.h"
 #include "messages.h"
 
 namespace backlight {
+namespace {
+
+// From so many bytes on, it is worth a moment to give memory back to the system.
+constexpr std::size_t large_text = std::size_t{1} << 20U;
+
+}  // namespace
 
 SceneSession::SceneSession(const SceneOptions& options) {
   ReadResult result = read_scene(options.file, options.overrides);
   found_by_reading_ = std::move(result.diagnostics);
   if (result.description) {
-    description_ = std::move(result.description);
+    description_.emplace(*std::move(result.description));
     return;
   }
   print(found_by_reading_);
@@ -26,7 +33,18 @@ std::optional<Scene> SceneSession::compile(const ImageRequest& request) {
   if (!scene) exit_code_ = exit_scene_wrong;
   if (!scene || !warnings_are_printed_) print(in_file_order(diagnostics, *description_));
   warnings_are_printed_ = true;
+  if (scene && images_ == SceneCompiler::Images::one) forget_contents();
   return scene;
+}
+
+// The description of a hundred thousand spheres is as large as all that is made of it. What identifies the
+// image (its film, camera and time) stays.
+void SceneSession::forget_contents() {
+  std::size_t text = 0;
+  for (const auto& source : description_->sources) text += source->text.size();
+  compiler_.reset();
+  description_->forget_contents();
+  if (text >= large_text) return_freed_memory();
 }
 
 bool SceneSession::check_camera_path(const ImageRequest& request) {

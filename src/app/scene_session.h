@@ -14,7 +14,8 @@ class SceneSession {
   /// Reads the file. What is wrong with it is kept for the first compile().
   explicit SceneSession(const SceneOptions& options);
 
-  /// To be called before the first compile(), if there will be no more than one.
+  /// To be called before the first compile(), if there will be no more than one: what is in the picture is
+  /// then forgotten as soon as it is compiled. Who asks the description for its objects cannot say this.
   void expect_one_image() { images_ = SceneCompiler::Images::one; }
 
   /// exit_success while nothing is wrong; then compile() may be called.
@@ -34,6 +35,8 @@ class SceneSession {
   Result<std::vector<std::string>> resource_digests() { return cache_.digests(); }
 
  private:
+  void forget_contents();
+
   std::optional<Description> description_;
   Diagnostics found_by_reading_;
   ResourceCache cache_;

@@ -1,6 +1,7 @@
 #include "backlight/scene/description.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace backlight {
 
@@ -20,6 +21,17 @@ SourceSpan Description::span(const Place& place) const {
   if (place.line == 0 || place.source >= sources.size()) return {};
   return {sources[place.source], static_cast<int>(place.line), static_cast<int>(place.column),
           static_cast<int>(place.length)};
+}
+
+void Description::forget_contents() {
+  NodeTable kept;  // by copies, which are not in `memory`
+  for (const Entry& entry : *root.table()) {
+    if (entry.name != "object" && entry.name != "material" && entry.name != "light") kept.push_back(entry);
+  }
+  root.value = Invalid{};
+  root.value = std::move(kept);
+  sources.clear();
+  memory->release();
 }
 
 std::vector<std::string> formula_variables(const Description& description) {

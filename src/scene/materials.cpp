@@ -142,15 +142,18 @@ void Materials::read_reflectance(const TableView& table, Material& material) {
   material.reflectance = grey(default_grey);
   if (given.empty() || given == "color") {
     if (given == "color") material.reflectance.rgb = table.vector("color");
-    pending_.push_back({materials_.size() - 1, -1, uv, ir});
+    pending_.push_back({materials_.size() - 1, nullptr, 0, uv, ir});
   } else if (given == "texture") {
     material.texture = read_texture(table, "texture", cache_);
     material.uv = uv;
     material.ir = ir;
   } else if (given == "checker") {
-    read_checker(table, material);
-    if (material.checker) {
-      for (const int square : {0, 1}) pending_.push_back({materials_.size() - 1, square, uv, ir});
+    const std::shared_ptr<Checker> checker = read_checker(table);
+    material.checker = checker;
+    if (checker) {
+      for (const std::size_t square : {0U, 1U}) {
+        pending_.push_back({materials_.size() - 1, checker.get(), square, uv, ir});
+      }
     }
   } else if (const auto spectrum = read_spectrum_key(table, cache_, 1.0)) {
     material.reflectance = {*spectrum, colour_under_d65(*spectrum)};
@@ -159,16 +162,15 @@ void Materials::read_reflectance(const TableView& table, Material& material) {
   }
 }
 
-void Materials::read_checker(const TableView& table, Material& material) {
+std::shared_ptr<Checker> Materials::read_checker(const TableView& table) {
   const TableView keys = table.table("checker", "material.checker");
-  Checker checker;
-  checker.size = keys.number("size");
+  const double size = keys.number("size");
   const Node* colours = keys.node_of("colors");
-  if (colours == nullptr || colours->array() == nullptr) return;
-  for (std::size_t i = 0; i < 2; ++i) {
-    checker.colours[i].rgb = keys.vector_at("colors", i);
-  }
-  material.checker = checker;
+  if (colours == nullptr || colours->array() == nullptr) return nullptr;
+  auto checker = std::make_shared<Checker>();
+  checker->size = size;
+  for (std::size_t i = 0; i < 2; ++i) checker->colours[i].rgb = keys.vector_at("colors", i);
+  return checker;
 }
 
 void Materials::read_emission(const TableView& table, Material& material) {
@@ -178,15 +180,14 @@ void Materials::read_emission(const TableView& table, Material& material) {
     table.error(given, "'" + std::string(given) + "' is that of the emission, and there is none",
                 "add emission = 1, or remove it");
   }
-  material.emits = emission > 0.0;
-  if (!material.emits) return;
+  if (!(emission > 0.0)) return;
   Colour light = white_light();
   if (given == "temperature") {
     if (const auto kelvin = table.optional_number("temperature")) light = blackbody_light(*kelvin);
   } else if (given == "emission_color") {
     light = coloured_light(table.vector("emission_color"));
   }
-  material.emission = times(light, emission);
+  material.emission = std::make_shared<const Colour>(times(light, emission));
 }
 
 SharedVector<Material> Materials::finish(CompileCounts& counts) {
@@ -204,9 +205,7 @@ SharedVector<Material> Materials::finish(CompileCounts& counts) {
 
 void Materials::make_spectra() {
   const auto colour_of = [&](const Pending& p) -> Colour& {
-    Material& material = materials_[p.material];
-    return p.square < 0 ? material.reflectance
-                        : material.checker->colours[static_cast<std::size_t>(p.square)];
+    return p.checker == nullptr ? materials_[p.material].reflectance : p.checker->colours[p.square];
   };
   std::set<std::array<double, 3>> colours;
   for (const Pending& p : pending_) {

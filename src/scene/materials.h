@@ -42,11 +42,12 @@ class Materials {
   SharedVector<Material> finish(CompileCounts& counts);
 
  private:
-  // A reflectance given as red, green, blue, whose spectrum is made at the end. `square` < 0: not of a
-  // checker.
+  // A reflectance given as red, green, blue, whose spectrum is made at the end: of a material, or of one of
+  // the squares of its checker.
   struct Pending {
     std::size_t material;
-    int square;
+    Checker* checker;  // or null
+    std::size_t square;
     std::optional<double> uv, ir;
   };
 
@@ -54,7 +55,7 @@ class Materials {
   void read(const MaterialPlan::Place& place);
   void make_spectra();
   void read_reflectance(const TableView& table, Material& material);
-  void read_checker(const TableView& table, Material& material);
+  static std::shared_ptr<Checker> read_checker(const TableView& table);
   void read_emission(const TableView& table, Material& material);
 
   ImageValues& values_;

@@ -21,7 +21,7 @@ void finish(ReadResult& result, Description description, SourceFiles& files,
   const std::vector<bool> used = check_structure(description, result.diagnostics);
   check_references(description, used, result.diagnostics);
   result.diagnostics = in_file_order(result.diagnostics, description);
-  result.description = std::move(description);
+  result.description.emplace(std::move(description));
 }
 
 }  // namespace

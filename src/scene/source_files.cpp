@@ -63,7 +63,7 @@ Node SourceFiles::parse(const std::string& text, const std::string& name,
   description_.sources.push_back(std::make_shared<const SourceText>(SourceText{name, text}));
   description_.folders.push_back(folder);
   digest_.update(text);
-  auto parsed = parse_toml(text, static_cast<std::uint32_t>(source));
+  auto parsed = parse_toml(text, static_cast<std::uint32_t>(source), description_.memory.get());
   if (const auto* error = std::get_if<TomlError>(&parsed)) {
     is_toml_ = false;
     diagnostics_.error(description_.span(error->place), error->message);

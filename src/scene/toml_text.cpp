@@ -2,13 +2,11 @@
 
 #include <toml++/toml.h>
 
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <optional>
 #include <utility>
+
+#include "backlight/base/memory.h"
 
 namespace backlight {
 namespace {
@@ -24,48 +22,77 @@ Place place_of(const toml::source_region& region, std::uint32_t source) {
   return place;
 }
 
+// From so much text, or so many bytes of values, on it is worth a moment to give memory back to the system.
+constexpr std::size_t large_text = std::size_t{1} << 20U;
+constexpr std::size_t many_values = std::size_t{1} << 24U;
+
 // The library's values take several times the room of ours, and there may be millions: what is converted is
-// given back at once, for ours to take its place.
-Node convert(toml::node& from, std::uint32_t source);
+// given back on the way.
+class Converter {
+ public:
+  Converter(std::uint32_t source, std::pmr::memory_resource* memory) : source_(source), memory_(memory) {}
 
-NodeTable convert_table(toml::table& from, std::uint32_t source) {
-  NodeTable table;
-  table.reserve(from.size());
-  for (auto&& [key, value] : from) {
-    table.push_back({std::string(key.str()), place_of(key.source(), source), convert(value, source)});
+  NodeTable table(toml::table& from) {
+    NodeTable table(memory_);
+    table.reserve(from.size());
+    for (auto&& [key, value] : from) {
+      table.push_back({std::string(key.str()), place_of(key.source(), source_), node(value)});
+    }
+    count(from.size() * sizeof(Entry));
+    from.clear();
+    // The library sorts by name; the author's order is the one to report and to number in.
+    std::stable_sort(table.begin(), table.end(), [](const Entry& a, const Entry& b) {
+      return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+    });
+    return table;
   }
-  from.clear();
-  // The library sorts by name; the author's order is the one to report and to number in.
-  std::stable_sort(table.begin(), table.end(), [](const Entry& a, const Entry& b) {
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-  });
-  return table;
-}
 
-Node convert(toml::node& from, std::uint32_t source) {
-  Node node;
-  node.place = place_of(from.source(), source);
-  if (auto* table = from.as_table()) {
-    node.value = convert_table(*table, source);
-  } else if (auto* array = from.as_array()) {
-    NodeArray elements;
-    elements.reserve(array->size());
-    for (toml::node& element : *array) elements.push_back(convert(element, source));
-    array->clear();
-    node.value = std::move(elements);
-  } else if (const auto* text = from.as_string()) {
-    node.value = text->get();
-  } else if (const auto* integer = from.as_integer()) {
-    node.value = static_cast<double>(integer->get());
-  } else if (const auto* real = from.as_floating_point()) {
-    node.value = real->get();
-  } else if (const auto* flag = from.as_boolean()) {
-    node.value = flag->get();
-  } else {
-    node.value = Date{};
+ private:
+  Node node(toml::node& from) {
+    Node node;
+    node.place = place_of(from.source(), source_);
+    if (auto* entries = from.as_table()) {
+      node.value = table(*entries);
+    } else if (auto* elements = from.as_array()) {
+      node.value = array(*elements);
+    } else if (const auto* text = from.as_string()) {
+      node.value = text->get();
+    } else if (const auto* integer = from.as_integer()) {
+      node.value = static_cast<double>(integer->get());
+    } else if (const auto* real = from.as_floating_point()) {
+      node.value = real->get();
+    } else if (const auto* flag = from.as_boolean()) {
+      node.value = flag->get();
+    } else {
+      node.value = Date{};
+    }
+    return node;
   }
-  return node;
-}
+
+  NodeArray array(toml::array& from) {
+    NodeArray elements(memory_);
+    elements.reserve(from.size());
+    while (!from.empty()) {  // from the end, where it can be given back
+      elements.push_back(node(from.back()));
+      from.pop_back();
+      count(sizeof(Node));
+    }
+    std::reverse(elements.begin(), elements.end());
+    return elements;
+  }
+
+  // Of what has been converted, and given back to the C library.
+  void count(std::size_t bytes) {
+    converted_ += bytes;
+    if (converted_ < many_values) return;
+    converted_ = 0;
+    return_freed_memory();
+  }
+
+  std::uint32_t source_;
+  std::pmr::memory_resource* memory_;
+  std::size_t converted_ = 0;
+};
 
 // Counts positions in a text as diagnostics do.
 struct Cursor {
@@ -106,16 +133,6 @@ std::optional<Place> overlong_key(std::string_view text, std::uint32_t source) {
   return std::nullopt;
 }
 
-// From this size on it is worth a moment to give memory back to the system: what follows has other sizes, and
-// would not fit into the gaps.
-constexpr std::size_t large_text = std::size_t{1} << 20U;
-
-void give_back_memory() {
-#if defined(__GLIBC__)
-  malloc_trim(0);
-#endif
-}
-
 std::string message_of(const toml::parse_error& error) {
   std::string text(error.description());
   const std::string_view prefix = "Error while parsing ";
@@ -131,7 +148,8 @@ std::string message_of(const toml::parse_error& error) {
 
 }  // namespace
 
-std::variant<Node, TomlError> parse_toml(std::string_view text, std::uint32_t source) {
+std::variant<Node, TomlError> parse_toml(std::string_view text, std::uint32_t source,
+                                         std::pmr::memory_resource* memory) {
   if (const auto place = overlong_key(text, source)) {
     return TomlError{*place, "a dotted key of more than " + std::to_string(longest_dotted_key) + " parts"};
   }
@@ -139,9 +157,9 @@ std::variant<Node, TomlError> parse_toml(std::string_view text, std::uint32_t so
     Node root{NodeTable{}, {source, 1, 1, 1}};
     {
       toml::table table = toml::parse(text);
-      root.value = convert_table(table, source);
+      root.value = Converter(source, memory).table(table);
     }
-    if (text.size() >= large_text) give_back_memory();
+    if (text.size() >= large_text) return_freed_memory();
     return root;
   } catch (const toml::parse_error& error) {
     return TomlError{place_of(error.source(), source), message_of(error)};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory_resource>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -17,7 +18,10 @@ struct TomlError {
 };
 
 /// The tables of a text, each value with its place. Numbers become doubles; strings stay strings.
-std::variant<Node, TomlError> parse_toml(std::string_view text, std::uint32_t source);
+/// Tables and arrays are in `memory`.
+std::variant<Node, TomlError> parse_toml(
+    std::string_view text, std::uint32_t source,
+    std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 /// Moves every place in a one-line node onto line `line` and by `columns` to the right (or, if negative,
 /// left): for a value that was parsed out of its context.

@@ -66,7 +66,7 @@ Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, cons
   if (material.texture) texel = texture_reflectance(material, point.surface.u, point.surface.v);
   const int slot = material.checker ? checker_slot(*material.checker, point.surface.u, point.surface.v) : 0;
 
-  Radiance<Rest> out{material.emits ? material.emission.rgb : LinearRgb{0.0}};
+  Radiance<Rest> out{material.emission ? material.emission->rgb : LinearRgb{0.0}};
   for_each_lamp(context, point, effects, material, scratch,
                 [&](std::size_t i, double irradiance, double specular, const Arrival&) {
                   const LinearRgb& lamp = scene.lights[i].colour.rgb;
@@ -92,7 +92,7 @@ int lamps_reaching(const ShadingContext& context, const SeenPoint& point, const 
                    Scratch& scratch) {
   const int index = material_of(*context.scene, point.hit, point.surface);
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
-  int count = material.emits ? 1 : 0;
+  int count = material.emission ? 1 : 0;
   for_each_lamp(context, point, effects, material, scratch,
                 [&count](std::size_t, double irradiance, double, const Arrival&) {
                   if (irradiance > 0.0) ++count;

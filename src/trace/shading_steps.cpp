@@ -49,7 +49,7 @@ double strength_at(const Light& light, double own_time, double c, std::vector<do
 void begin_spectrum(const Material& material, double u, double v, Scratch& s) {
   const int n = static_cast<int>(s.wavelengths.size());
   std::fill(s.radiance.begin(), s.radiance.end(), 0.0);
-  if (material.emits) material.emission.spectrum.evaluate(s.wavelengths.data(), n, s.radiance.data());
+  if (material.emission) material.emission->spectrum.evaluate(s.wavelengths.data(), n, s.radiance.data());
   fill_reflectance(material, u, v, s);
 }
 

@@ -401,7 +401,7 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
 
 void SheetShader::light_rgb(const Material& material, int material_index, const Effects& effects) {
   PointSheet& p = work_.points;
-  const LinearRgb own = material.emits ? material.emission.rgb : LinearRgb{0.0};
+  const LinearRgb own = material.emission ? material.emission->rgb : LinearRgb{0.0};
   for (int k = 0; k < 3; ++k) std::fill_n(p.rgb[k], p.padded, own[k]);
   for (std::size_t i = 0; i < tracer_.scene().lights.size(); ++i) {
     LaneReflection reflection;

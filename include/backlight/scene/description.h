@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <memory_resource>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -29,8 +30,8 @@ struct Place {
 
 struct Node;
 struct Entry;
-using NodeArray = std::vector<Node>;
-using NodeTable = std::vector<Entry>;  ///< in the order of the text
+using NodeArray = std::pmr::vector<Node>;
+using NodeTable = std::pmr::vector<Entry>;  ///< in the order of the text
 
 /// A value that was wrong and has been reported.
 struct Invalid {};
@@ -65,6 +66,14 @@ Entry* find(Node& table, std::string_view name);
 
 /// A scene as written.
 struct Description {
+  Description() = default;
+  Description(Description&&) = default;
+  Description& operator=(Description&&) = delete;  // the tree must go before its memory
+
+  /// Where the values of files are: in few large pieces, apart from what is made of them, so that forgetting
+  /// them leaves no gaps.
+  std::unique_ptr<std::pmr::monotonic_buffer_resource> memory =
+      std::make_unique<std::pmr::monotonic_buffer_resource>();
   std::string file;                                        ///< the scene file's path as given
   std::vector<std::shared_ptr<const SourceText>> sources;  ///< every text that was read, and the overrides
   std::vector<std::filesystem::path> folders;  ///< of each source: relative paths in it start here
@@ -77,6 +86,10 @@ struct Description {
   std::string sha256;
 
   [[nodiscard]] SourceSpan span(const Place& place) const;
+
+  /// Forgets what is in the picture, which is nearly all of a large scene, and the texts: of the film, the
+  /// cameras, the animation and the parameters all stays, but for the lines shown beside errors.
+  void forget_contents();
 };
 
 /// The formula of a surface may use x, y and z besides the variables of every expression: they come first.

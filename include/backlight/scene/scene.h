@@ -55,18 +55,18 @@ struct Checker {
   double size = 1.0;  ///< edge of a square, in units of the texture coordinates
 };
 
-/// What a surface is made of, in its rest frame.
+/// What a surface is made of, in its rest frame. A scene may have a hundred thousand: what few of them have
+/// is behind a pointer.
 struct Material {
   std::string name;
   Colour reflectance;                      ///< Lambert, when there is neither texture nor checker
   std::shared_ptr<const Texture> texture;  ///< reflectance from an image, or null
   std::optional<double> uv;  ///< of a texture: level at 300 nm and below, see Spectrum::reflectance
   std::optional<double> ir;  ///< of a texture: level at 890 nm and above
-  std::optional<Checker> checker;
-  double specular = 0.0;    ///< Phong: the share of the light reflected by the lobe
-  double shininess = 50.0;  ///< Phong: the lobe's exponent
-  bool emits = false;
-  Colour emission;  ///< own radiance, at rest to itself
+  std::shared_ptr<const Checker> checker;  ///< or null
+  double specular = 0.0;                   ///< Phong: the share of the light reflected by the lobe
+  double shininess = 50.0;                 ///< Phong: the lobe's exponent
+  std::shared_ptr<const Colour> emission;  ///< own radiance, at rest to itself; null: it emits nothing
 };
 
 enum class LightKind { point, distant, ambient };

@@ -177,5 +177,37 @@ TEST(CompileErrors, AScenesReadingErrorsForbidIt) {
   EXPECT_EQ(read.diagnostics.error_count(), 1U);
 }
 
+// What identifies an image can still be said when what is in it has been forgotten.
+TEST(SceneDescription, WithoutItsContentsTellsTheSameFactsOfAnImage) {
+  const std::string text =
+      "[params]\nn = 3\n[film]\nresolution = [40, 30]\nsamples = \"n + 8 - frame\"\n[animation]\nfps = "
+      "10\nframes = "
+      "[1, 20]\n[[camera]]\nname = \"first\"\nposition = [\"t\", 0, -5]\n[[camera]]\nname = \"second\"\n"
+      "[material.red]\ncolor = [1, 0, 0]\n[[light]]\nposition = [0, 5, 0]\n[[object]]\nshape = \"sphere\"\n"
+      "radius = 1\nmaterial = \"red\"\n";
+  ReadResult read = read_scene_text(text, "scene.toml");
+  ASSERT_TRUE(read.description.has_value());
+  Description& description = *read.description;
+  ImageRequest request;
+  request.frame = 7;
+  request.camera = "second";
+  const auto before = image_facts(description, request);
+  ASSERT_TRUE(before.has_value());
+
+  description.forget_contents();
+  EXPECT_EQ(find(description.root, "object"), nullptr);
+  EXPECT_EQ(find(description.root, "material"), nullptr);
+  const auto after = image_facts(description, request);
+  ASSERT_TRUE(after.has_value());
+  EXPECT_EQ(after->time, before->time);
+  EXPECT_EQ(after->time, 0.6);
+  EXPECT_EQ(after->frame, before->frame);
+  EXPECT_EQ(after->camera, "second");
+  EXPECT_EQ(after->film.width, 40);
+  EXPECT_EQ(after->film.samples, 4);
+  request.frame = 12;  // minus one sample: wrong, with no text to show
+  EXPECT_FALSE(image_facts(description, request).has_value());
+}
+
 }  // namespace
 }  // namespace backlight
