@@ -15,6 +15,7 @@ BACKLIGHT = "build/bench/bin/backlight"
 FIELD = "build/bench/bench/sphere_field"
 EMBREE = "build/bench/bench/embree_spheres"
 YARDSTICKS = "bench/yardsticks"
+RECORD = "docs/charts/beside.csv"
 ROWS = ("spheres", "torus", "barth", "gyroid", "motion", "spectral", "many", "threads", "memory", "startup")
 PLAIN = ("-D", "effects.doppler=false")  # red, green and blue, with the searchlight effect
 
@@ -180,29 +181,46 @@ def report(bench, rows):
     return lines
 
 
-def print_table(bench, rows):
-    heading = ("work", "this", "", "beside", "", "ratio", "wanted")
-    table = [heading] + report(bench, rows)
-    widths = [max(len(line[i]) for line in table) for i in range(len(heading))]
-    for line in table:
-        print("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip())
+def report_process(bench, rows):
+    """What of a whole process is measured, in lines of the same form."""
+    lines = []
     if "memory" in rows:
         scene = field(bench, 100000, "distinct")
         command = [BACKLIGHT, "render", scene, "-o", os.path.join(bench.folder, "picture.exr"), "-q", "-r", "1920x1080",
                    *PLAIN]
         begin = time.perf_counter()
         megabytes = peak_megabytes(command)
-        print(f"100 000 spheres at 1920x1080, all velocities distinct: peak {megabytes:.0f} MB (wanted <= 400), "
-              f"{time.perf_counter() - begin:.1f} s")
+        lines.append(("peak memory, MB", "100000 spheres moving, 1920x1080", f"{time.perf_counter() - begin:.1f} s", "", "",
+                      f"{megabytes:.0f}", "<= 400"))
     if "startup" in rows:
-        whole = 1000 * bench.whole_seconds("one sphere, 64x64")
-        print(f"one sphere at 64x64, whole process: {whole:.1f} ms (wanted <= 20)")
+        whole = bench.whole_seconds("one sphere, 64x64")
+        lines.append(("start-up, ms", "one sphere, 64x64", f"{whole:.4f} s", "", "", f"{1000 * whole:.1f}", "<= 20"))
+    return lines
+
+
+HEADING = ("work", "this", "its time", "beside", "its time", "ratio", "wanted")
+
+
+def print_table(lines):
+    table = [HEADING] + lines
+    widths = [max(len(line[i]) for line in table) for i in range(len(HEADING))]
+    for line in table:
+        print("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip())
+
+
+def write_rows(path, heading, lines):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(heading)
+        writer.writerows(lines)
 
 
 def main():
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--record", action="store_true")
     parser.add_argument("rows", nargs="*", metavar="ROW")
     options = parser.parse_args()
     unknown = [row for row in options.rows if row not in ROWS]
@@ -218,13 +236,15 @@ def main():
         print(f"{cpu.group(1) if cpu else 'this machine'}, {os.cpu_count()} CPUs; medians of {bench.rounds} interleaved "
               "runs, one thread unless said, tracing alone as each program tells it")
         bench.measure()
-        print_table(bench, rows)
-        os.makedirs("out", exist_ok=True)
-        with open("out/bench.csv", "w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(("subject", "run", "traced_seconds", "process_seconds"))
-            for name, runs in bench.runs.items():
-                writer.writerows((name, i + 1, f"{t:.6f}", f"{w:.6f}") for i, (t, w) in enumerate(runs))
+        lines = report(bench, rows) + report_process(bench, rows)
+        print_table(lines)
+        write_rows("out/bench.csv", ("subject", "run", "traced_seconds", "process_seconds"),
+                   [(name, i + 1, f"{t:.6f}", f"{w:.6f}")
+                    for name, runs in bench.runs.items() for i, (t, w) in enumerate(runs)])
+        if options.record:
+            columns = ("work", "this", "this_time", "beside", "beside_time", "ratio", "wanted")
+            write_rows(RECORD, columns, [tuple(cell.strip() for cell in line) for line in lines])
+            print(f"{RECORD}: for the table of docs/speed-accuracy.md, which scripts/charts.sh --draw writes")
     print(f"{time.perf_counter() - begin:.0f} s in all; out/bench.csv has every run")
 
 

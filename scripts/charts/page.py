@@ -132,8 +132,38 @@ def ablation(folder):
     return table(("left out", "time left, median", "over the figures", "error, median", "largest", "in"), lines)
 
 
+# Whose roots the rows of `beside` are about: their surface, our method and the other's, as `roots` has them.
+ERRORS = {
+    "POV-Ray torus": ("torus", "Backlight: torus", "POV-Ray: torus"),
+    "POV-Ray torus sturm": ("torus", "Backlight: torus", "POV-Ray: torus sturm"),
+    "POV-Ray barth": ("Barth's sextic", "Backlight", "POV-Ray: polynomial"),
+    "POV-Ray barth sturm": ("Barth's sextic", "Backlight", "POV-Ray: polynomial sturm"),
+    "POV-Ray gyroid": ("gyroid", "Backlight", "POV-Ray: isosurface 1e-3"),
+    "POV-Ray 200 spheres": ("sphere", "Backlight: sphere", "POV-Ray: sphere"),
+}
+
+
+def worst_errors(folder, work):
+    """Ours and the other's, of chart a; empty where a row is not about roots."""
+    if work not in ERRORS:
+        return "", ""
+    surface, ours, other = ERRORS[work]
+    of = {row["method"]: row["worst_error"] for row in rows(folder, "roots") if row["surface"] == surface}
+    return (max((float(error) for method, error in of.items() if method.startswith(ours)), default=float("nan")),
+            float(of.get(other, "nan")))
+
+
+def beside(folder):
+    lines = []
+    for row in rows(folder, "beside"):
+        errors = worst_errors(folder, row["this"])
+        lines.append((row["work"], row["this"], row["this_time"], row["beside"], row["beside_time"], f"**{row['ratio']}**",
+                      row["wanted"], ", ".join(short(error) for error in errors if error != "")))
+    return table(("work", "this", "time", "beside", "time", "ratio", "aim", "worst error of a hit: ours, its"), lines)
+
+
 TABLES = {"roots": roots, "arithmetic": arithmetic, "wavelengths": wavelengths, "sampling": sampling, "objects": objects,
-          "pixels": pixels, "threads": threads, "ablation": ablation}
+          "pixels": pixels, "threads": threads, "ablation": ablation, "beside": beside}
 
 
 def machine(folder):
