@@ -132,12 +132,12 @@ def subjects(bench, rows):
     if "many" in rows:
         bench.add("10000 spheres moving", backlight(bench, field(bench, 10000, "distinct"), *PLAIN))
     if "threads" in rows:
-        big = {"size": "1440x1052"}
+        big = {"size": "2880x2104"}
         for threads in (1, 2):
             bench.add(f"big, {threads} threads",
                       backlight(bench, field(bench, 200, "distinct"), *PLAIN, threads=threads, **big))
             bench.add(f"POV-Ray big, {threads} threads",
-                      povray(bench, field(bench, 200, "povray"), threads=threads, size=(1440, 1052)))
+                      povray(bench, field(bench, 200, "povray"), threads=threads, size=(2880, 2104)))
     if "startup" in rows:
         one = os.path.join(bench.folder, "one.toml")
         with open(one, "w", encoding="utf-8") as file:
@@ -175,7 +175,7 @@ def report(bench, rows):
     if "many" in rows:
         ratio("10 000 spheres beside 200", "10000 spheres moving", "200 spheres moving", "<= 10")
     if "threads" in rows:
-        ratio("two threads, 1440x1052", "big, 1 threads", "big, 2 threads", ">= 1.9")
+        ratio("two threads, 2880x2104", "big, 1 threads", "big, 2 threads", ">= 1.9")
         ratio("  POV-Ray's", "POV-Ray big, 1 threads", "POV-Ray big, 2 threads", "")
         ratio("  POV-Ray beside ours, two", "POV-Ray big, 2 threads", "big, 2 threads", "")
     return lines

@@ -50,7 +50,8 @@ Image::Image(ImageLayout layout) : layout_(std::move(layout)) {
   const std::size_t pixels = layout_.data.empty() ? 0
                                                   : static_cast<std::size_t>(layout_.data.width()) *
                                                         static_cast<std::size_t>(layout_.data.height());
-  planes_.assign(layout_.channels.size(), std::vector<float>(pixels));
+  planes_.resize(layout_.channels.size());
+  for (std::vector<float>& plane : planes_) plane.resize(pixels);
 }
 
 int Image::find_channel(std::string_view name) const {
