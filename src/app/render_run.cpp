@@ -323,7 +323,8 @@ Result<void> RenderRun::store(Work& work) const {
   std::error_code ignored;
   // The PNG of an earlier image must not stand beside this one, should the process end between the two.
   if (!image.png.empty()) std::filesystem::remove(image.png, ignored);
-  const auto written = write_exr(image.exr, work.partial.image, work.header, options_.storage);
+  const auto written =
+      write_exr(image.exr, work.partial.image, work.header, options_.storage, work.settings.threads);
   return written.ok() ? complete_png(image) : written;
 }
 

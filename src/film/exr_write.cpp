@@ -1,11 +1,13 @@
 #include <ImfFrameBuffer.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
+#include <ImfThreading.h>
 #include <half.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <mutex>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -78,15 +80,31 @@ bool half_overflows(const Image& image) {
   return false;
 }
 
+// From so many numbers on, compression takes longer than it does to wake other threads.
+bool is_large(const Image& image) {
+  constexpr std::size_t large = std::size_t{1} << 18U;
+  return image.channel_count() > 0 && image.channel_count() * image.plane(0).size() >= large;
+}
+
+// How many threads of OpenEXR's own, which all files of the process share, help with a file. They are started
+// by the first file that asks for any.
+int helpers_of(int threads) {
+  if (threads <= 1) return 0;
+  static std::once_flag once;
+  std::call_once(once, [&] { Imf::setGlobalThreadCount(threads); });
+  return threads;
+}
+
 }  // namespace
 
 class ExrWriter::Implementation {
  public:
-  Implementation(AtomicFile file, const ImageLayout& layout, const ExrHeader& header)
+  Implementation(AtomicFile file, const ImageLayout& layout, const ExrHeader& header, int threads)
       : file_(std::move(file)),
         stream_(file_),
         layout_(layout),
-        output_(std::make_unique<Imf::OutputFile>(stream_, to_imf(layout, header), 0)),
+        output_(std::make_unique<Imf::OutputFile>(stream_, to_imf(layout, header), helpers_of(threads))),
+        band_rows_(zip_chunk_rows * std::max(1, 2 * helpers_of(threads))),
         next_row_(layout.data.y0) {}
 
   Result<void> write_rows(std::span<const std::span<const float>> planes, int rows) {
@@ -131,13 +149,13 @@ class ExrWriter::Implementation {
         throw std::runtime_error("the rows do not fit the picture");
       }
     }
-    for (int first = 0; first < rows; first += band_rows) {
-      const int count = std::min(band_rows, rows - first);
+    for (int first = 0; first < rows; first += band_rows_) {
+      const int count = std::min(band_rows_, rows - first);
       write_band(planes, width * static_cast<std::size_t>(first), count);
     }
   }
 
-  /// `count` <= band_rows rows, which start at `offset` in each plane.
+  /// `count` <= band_rows_ rows, which start at `offset` in each plane.
   void write_band(std::span<const std::span<const float>> planes, std::size_t offset, int count) {
     const auto width = static_cast<std::size_t>(layout_.data.width());
     const std::size_t pixels = width * static_cast<std::size_t>(count);
@@ -175,12 +193,11 @@ class ExrWriter::Implementation {
     }
   }
 
-  static constexpr int band_rows = zip_chunk_rows;
-
   AtomicFile file_;
   CheckedStream stream_;
   ImageLayout layout_;
   std::unique_ptr<Imf::OutputFile> output_;
+  int band_rows_;
   int next_row_;
   std::string error_;
   std::vector<std::vector<half>> half_bands_;
@@ -193,7 +210,7 @@ ExrWriter& ExrWriter::operator=(ExrWriter&&) noexcept = default;
 ExrWriter::~ExrWriter() = default;
 
 Result<ExrWriter> ExrWriter::open(const std::filesystem::path& path, const ImageLayout& layout,
-                                  const ExrHeader& header) {
+                                  const ExrHeader& header, int threads) {
   if (const std::string fault = fault_of(layout); !fault.empty()) {
     return Failure{"cannot write " + path.string() + ": " + fault};
   }
@@ -202,7 +219,7 @@ Result<ExrWriter> ExrWriter::open(const std::filesystem::path& path, const Image
     return file.failure();
   }
   try {
-    return ExrWriter(std::make_unique<Implementation>(std::move(file).value(), layout, header));
+    return ExrWriter(std::make_unique<Implementation>(std::move(file).value(), layout, header, threads));
   } catch (const std::exception& exception) {
     const std::string why = exception.what();
     // The stream's own failures already name the file.
@@ -219,14 +236,14 @@ Result<void> ExrWriter::commit() {
 }
 
 Result<void> write_exr(const std::filesystem::path& path, const Image& image, const ExrHeader& header,
-                       ColourStorage storage) {
+                       ColourStorage storage, int threads) {
   ImageLayout layout = image.layout();
   if (storage == ColourStorage::always_float || half_overflows(image)) {
     for (ChannelInfo& channel : layout.channels) {
       channel.precision = ChannelPrecision::single;
     }
   }
-  Result<ExrWriter> writer = ExrWriter::open(path, layout, header);
+  Result<ExrWriter> writer = ExrWriter::open(path, layout, header, is_large(image) ? threads : 1);
   if (!writer.ok()) {
     return writer.failure();
   }

@@ -87,9 +87,10 @@ enum class ColourStorage {
 class ExrWriter {
  public:
   /// Fails if the layout has no pixel, no channel, two channels of one name or an empty name, if the header
-  /// has an attribute that cannot be written, or if the file cannot be made.
+  /// has an attribute that cannot be written, or if the file cannot be made. With several `threads`, so many
+  /// help to compress rows that are given many at a time; the bytes are the same.
   static Result<ExrWriter> open(const std::filesystem::path& path, const ImageLayout& layout,
-                                const ExrHeader& header);
+                                const ExrHeader& header, int threads = 1);
 
   ExrWriter(ExrWriter&&) noexcept;
   ExrWriter& operator=(ExrWriter&&) noexcept;
@@ -109,9 +110,10 @@ class ExrWriter {
 };
 
 /// Writes a whole picture. On failure (the disk is full, the folder cannot be written...) nothing is left
-/// behind, and a file that was at `path` is as it was.
+/// behind, and a file that was at `path` is as it was. Large pictures are compressed by up to `threads`,
+/// which may write other pictures at the same time.
 Result<void> write_exr(const std::filesystem::path& path, const Image& image, const ExrHeader& header,
-                       ColourStorage storage = ColourStorage::automatic);
+                       ColourStorage storage = ColourStorage::automatic, int threads = 1);
 
 struct ExrPicture {
   Image image;  ///< channels in alphabetical order, as in the file

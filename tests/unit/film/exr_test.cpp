@@ -256,6 +256,14 @@ TEST_F(Exr, TheSamePictureGivesTheSameBytesAndNoClock) {
   EXPECT_EQ(bytes.find("capDate"), std::string::npos);
 }
 
+TEST_F(Exr, SeveralThreadsGiveTheSameBytes) {
+  const ImageLayout layout{{0, 0, 500, 410}, {0, 0, 500, 410}, all_channels, {}};
+  const Image image = pattern(layout);
+  ASSERT_TRUE(write_exr(folder / "one.exr", image, {}).ok());
+  ASSERT_TRUE(write_exr(folder / "three.exr", image, {}, ColourStorage::automatic, 3).ok());
+  EXPECT_EQ(read_file(folder / "one.exr").value(), read_file(folder / "three.exr").value());
+}
+
 TEST_F(Exr, RowsGivenInPiecesGiveTheSameBytes) {
   const ImageLayout layout{{0, 0, 30, 90}, {2, 5, 28, 82}, all_channels, {}};
   const Image image = pattern(layout);
