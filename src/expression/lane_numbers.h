@@ -14,25 +14,6 @@
 namespace backlight {
 
 template <class V>
-BACKLIGHT_LANES V larger(V a, V b) {
-#if defined(__AVX512F__)
-  if constexpr (V::width == 8) return (typename V::Vec)_mm512_max_pd((__m512d)a.v, (__m512d)b.v);
-#endif
-#if defined(__AVX__)
-  if constexpr (V::width == 4) return (typename V::Vec)_mm256_max_pd((__m256d)a.v, (__m256d)b.v);
-#endif
-#if defined(__SSE2__)
-  if constexpr (V::width == 2) return (typename V::Vec)_mm_max_pd((__m128d)a.v, (__m128d)b.v);
-#endif
-  return select(a > b, a, b);
-}
-
-template <class V>
-BACKLIGHT_LANES V magnitude(V a) {
-  return larger(a, -a);
-}
-
-template <class V>
 struct LaneBounds {
   V minus_lower, upper;
 

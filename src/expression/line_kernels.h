@@ -5,6 +5,7 @@
 #include "lane_affine.h"
 #include "lane_numbers.h"
 #include "line_work.h"
+#include "polynomial_kernel.h"
 
 namespace backlight {
 
@@ -225,7 +226,7 @@ template <int width>
 LineKernels line_kernels() {
   using V = Lanes<width>;
   return {LineKernel<LaneBounds<V>, V, true>::run, LineKernel<LaneBounds<V>, V, false>::run,
-          LineKernel<LaneNumber<V>, V, true>::run, run_zeros<V>};
+          LineKernel<LaneNumber<V>, V, true>::run, run_zeros<V>, PolynomialKernel<V>::run};
 }
 
 }  // namespace backlight

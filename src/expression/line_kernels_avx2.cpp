@@ -7,7 +7,7 @@ LineKernels avx2_line_kernels() {
 #if defined(__AVX2__)
   return line_kernels<4>();
 #else
-  return {nullptr, nullptr, nullptr, nullptr};
+  return {};
 #endif
 }
 

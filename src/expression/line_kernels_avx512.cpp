@@ -7,7 +7,7 @@ LineKernels avx512_line_kernels() {
 #if defined(__AVX512DQ__)
   return line_kernels<8>();
 #else
-  return {nullptr, nullptr, nullptr, nullptr};
+  return {};
 #endif
 }
 

@@ -59,6 +59,14 @@ class Run {
 
   void numbers(std::size_t count) { kernels_.numbers(work_on(count, true)); }
 
+  void polynomials(std::size_t count, LinePolynomials& found) {
+    // The registers of one kernel's width at a time, and two more for powers.
+    const std::size_t registers = program_.tape().registers + 2;
+    const std::size_t needed = registers * (LinePolynomials::most_degree + 2) * LineBatch::padding;
+    if (workspace_.size() < needed) workspace_.resize(needed);
+    kernels_.polynomials(work_on(count, false), found);
+  }
+
   [[nodiscard]] const double* result(std::size_t component, std::size_t count) const {
     return workspace_.data() + component * count;
   }
@@ -82,6 +90,7 @@ class Run {
     work.to = at_point ? lines_.from() : lines_.to();
     if (workspace_.size() < program_.workspace(count)) workspace_.resize(program_.workspace(count));
     work.registers = workspace_.data();
+    work.register_count = static_cast<std::uint32_t>(program_.tape().registers);
     work.found[0] = lines_.first_zero();
     work.found[1] = lines_.last_zero();
     work.found[2] = lines_.sign();
@@ -191,6 +200,33 @@ void enclose_lines(const LineProgram& program, LineBatch& lines, std::size_t cou
   }
 }
 
+/// Of the result of a step; `exponent` is that of a whole power.
+std::uint8_t degree_of(const LineProgram::Step& step, double exponent) {
+  constexpr int none = LineProgram::Step::none;
+  const bool binary = info(step.operation).operands == 2;
+  if (step.degree_a == none || (binary && step.degree_b == none)) return none;
+  const auto result = [&]() -> int {
+    switch (step.operation) {
+      case Operation::add:
+      case Operation::subtract:
+        return std::max(step.degree_a, step.degree_b);
+      case Operation::multiply:
+        return step.degree_a + step.degree_b;
+      case Operation::divide:
+        return step.constant_b ? step.degree_a : none;
+      case Operation::negate:
+        return step.degree_a;
+      case Operation::square:
+        return 2 * step.degree_a;
+      case Operation::integer_power:
+        return exponent <= LinePolynomials::most_degree ? step.degree_a * static_cast<int>(exponent) : none;
+      default:
+        return none;
+    }
+  }();
+  return static_cast<std::uint8_t>(result <= LinePolynomials::most_degree ? result : none);
+}
+
 }  // namespace
 
 LineBatch::LineBatch(std::size_t capacity) : capacity_(padded(capacity)), numbers_(15 * capacity_, 0.0) {}
@@ -198,24 +234,46 @@ LineBatch::LineBatch(std::size_t capacity) : capacity_(padded(capacity)), number
 LineProgram::LineProgram(const Tape& tape, LineWidth width) : tape_(tape), width_(width) {
   std::vector<bool> changes(tape.registers, false);
   std::vector<bool> constant(tape.registers, false);
+  std::vector<std::uint8_t> degree(tape.registers, Step::none);
+  std::vector<double> number(tape.registers, 0.0);
   steps_.reserve(tape.instructions.size());
   for (const Instruction& step : tape.instructions) {
     LineProgram::Step line{step.operation, false, false, step.out, step.a, step.b};
     if (step.operation == Operation::variable) {
       if (step.a >= LineBatch::most_variables) throw std::invalid_argument("LineProgram: too many variables");
       changes[step.out] = true;
+      line.degree = 1;
     } else if (step.operation == Operation::constant) {
       changes[step.out] = false;
+      line.degree = 0;
+      number[step.out] = tape.constants[step.a];
     } else {
       line.slope_a = changes[step.a];
       line.slope_b = info(step.operation).operands == 2 && changes[step.b];
       line.constant_a = constant[step.a];
       line.constant_b = info(step.operation).operands == 2 && constant[step.b];
       changes[step.out] = line.slope_a || line.slope_b;
+      line.degree_a = degree[step.a];
+      line.degree_b = degree[step.b];
+      line.degree = degree_of(line, number[step.b]);
     }
+    degree[step.out] = line.degree;
     constant[step.out] = step.operation == Operation::constant;
     steps_.push_back(line);
   }
+}
+
+std::optional<int> LineProgram::degree() const {
+  const std::uint8_t last = steps_.back().degree;
+  if (last == Step::none) return std::nullopt;
+  return last;
+}
+
+void LineProgram::polynomials(LineBatch& lines, std::size_t count, std::vector<double>& workspace,
+                              LinePolynomials& found) const {
+  if (count == 0) return;
+  fill_up(lines, count);
+  Run(*this, lines, workspace).polynomials(padded(count), found);
 }
 
 std::size_t LineProgram::workspace(std::size_t count) const {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "backlight/expression/line_polynomials.h"
 #include "backlight/expression/line_program.h"
 
 namespace backlight {
@@ -20,6 +21,7 @@ struct LineWork {
   const double* from;
   const double* to;
   double* registers;
+  std::uint32_t register_count;
   double* found[3];    ///< of zeros: first, last, sign
   std::size_t stride;  ///< a multiple of LineBatch::padding: the lines that are computed
 };
@@ -30,6 +32,7 @@ struct LineKernels {
   void (*points)(const LineWork&);
   void (*numbers)(const LineWork&);
   void (*zeros)(const LineWork&);
+  void (*polynomials)(const LineWork&, LinePolynomials&);
 };
 
 LineKernels baseline_line_kernels();

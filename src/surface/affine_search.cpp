@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "newton_bracket.h"
+
 namespace backlight {
 namespace {
 
@@ -22,8 +24,6 @@ constexpr double growth = 1.5;
 constexpr double good_part = 0.5;
 /// Zeros confined to less than this part of a piece are asked for their slope, to more: for another form.
 constexpr double close_part = 0.5;
-
-constexpr int most_polish_steps = 60;
 
 /// A line on which f has no form over this part of it is RootWalk's.
 constexpr double coarsest = 0x1p-7;
@@ -60,6 +60,7 @@ struct Memory {
   std::vector<Traveller> waiting;
   std::vector<Bracket> brackets;
   std::vector<Bracket> settling;
+  std::vector<NewtonBracket> newton;  ///< of those
   std::vector<Bracket> undecided;
 };
 
@@ -71,11 +72,12 @@ Memory& memory_of_thread() {
 class FormSearch {
  public:
   FormSearch(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
-             RootWork& work)
+             RootsWanted wanted, RootWork& work)
       : f_(f),
         program_(f.program()),
         pieces_(pieces),
         roots_(roots),
+        wanted_(wanted),
         work_(work),
         m_(memory_of_thread()),
         most_steps_(most_pieces(work)) {}
@@ -277,25 +279,32 @@ class FormSearch {
     }
   }
 
-  /// Newton's method, each inside a bracket that is halved when Newton's does not do better.
   void find_roots() {
+    m_.newton.clear();
     for (std::size_t k = 0; k < m_.settling.size(); ++k) {
       const Bracket& b = m_.settling[k];
+      const double middle = 0.5 * b.line.begin + 0.5 * b.line.end;
+      roots_[b.line.piece] = {middle,       RootKind::crossing, b.sign_before,
+                              b.sign_after, b.line.begin,       b.line.end};
       put_on(m_.settle, k, b.line);
-      m_.settle.from()[k] = 0.5 * b.line.begin + 0.5 * b.line.end;
-      roots_[b.line.piece] = {0.0, RootKind::crossing, b.sign_before, b.sign_after, b.line.begin, b.line.end};
-      m_.settling[k].line.steps = 0;
+      m_.settle.from()[k] = middle;
+      m_.newton.push_back({b.line.begin, b.line.end, b.sign_before > 0, b.line.least});
     }
+    if (wanted_ == RootsWanted::existence) m_.settling.clear();
     while (!m_.settling.empty()) {
       const std::size_t count = m_.settling.size();
       program_.numbers(m_.settle, count, m_.workspace);
       work_.polish += count;
       for (std::size_t k = count; k-- > 0;) {
-        if (improve(m_.settling[k], m_.settle.from()[k], m_.settle.value()[k], m_.settle.slope()[k]))
-          continue;
+        double& t = m_.settle.from()[k];
+        const bool settled = m_.newton[k].improve(t, m_.settle.value()[k], m_.settle.slope()[k]);
+        roots_[m_.settling[k].line.piece].t = t;
+        if (!settled) continue;
         const double at = m_.settle.from()[m_.settling.size() - 1];
         m_.settling[k] = m_.settling.back();
         m_.settling.pop_back();
+        m_.newton[k] = m_.newton.back();
+        m_.newton.pop_back();
         if (k == m_.settling.size()) continue;
         put_on(m_.settle, k, m_.settling[k].line);
         m_.settle.from()[k] = at;
@@ -303,31 +312,11 @@ class FormSearch {
     }
   }
 
-  /// False: `t` is the root, and has been told.
-  bool improve(Bracket& b, double& t, double value, double slope) {
-    Traveller& line = b.line;
-    const double width = line.end - line.begin;
-    ((value > 0.0) == (b.sign_before > 0) ? line.begin : line.end) = t;
-    double next = t - value / slope;
-    const bool settled = value == 0.0 || std::abs(next - t) <= 0.03125 * line.least;
-    if (settled) {
-      roots_[line.piece].t = value == 0.0 ? t : std::clamp(next, line.begin, line.end);
-      return false;
-    }
-    const bool slow = line.steps > 6 && line.end - line.begin > 0.5 * width;
-    if (slow || !(next > line.begin && next < line.end)) next = 0.5 * line.begin + 0.5 * line.end;
-    if (next > line.begin && next < line.end && ++line.steps < most_polish_steps) {
-      t = next;
-      return true;
-    }
-    roots_[line.piece].t = t;
-    return false;
-  }
-
   const ImplicitFormula& f_;
   const LineProgram& program_;
   std::span<const LinePiece> pieces_;
   std::span<Root> roots_;
+  RootsWanted wanted_;
   RootWork& work_;
   Memory& m_;
   int most_steps_;
@@ -337,9 +326,8 @@ class FormSearch {
 }  // namespace
 
 void first_roots_by_forms(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
-                          RootWork* work) {
-  RootWork own;
-  FormSearch(f, pieces, roots, work != nullptr ? *work : own).run();
+                          RootsWanted wanted, RootWork& work) {
+  FormSearch(f, pieces, roots, wanted, work).run();
 }
 
 }  // namespace backlight

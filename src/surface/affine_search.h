@@ -12,8 +12,8 @@
 namespace backlight {
 
 /// first_roots() (implicit_roots.h) in this way. Each line's root is found by the same steps, whichever lines
-/// it is searched with. The work is added to `work`, if that is not null.
+/// it is searched with.
 void first_roots_by_forms(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
-                          RootWork* work);
+                          RootsWanted wanted, RootWork& work);
 
 }  // namespace backlight

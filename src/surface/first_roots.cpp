@@ -5,6 +5,7 @@
 
 #include "affine_search.h"
 #include "line_search.h"
+#include "polynomial_search.h"
 
 namespace backlight {
 namespace {
@@ -32,11 +33,12 @@ Memory& memory_of_thread() {
 class SideBySide {
  public:
   SideBySide(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
-             RootWork& work)
+             RootsWanted wanted, RootWork& work)
       : f_(f),
         program_(f.program()),
         pieces_(pieces),
         roots_(roots),
+        wanted_(wanted),
         work_(work),
         m_(memory_of_thread()),
         most_pieces_(most_pieces(work)) {}
@@ -47,7 +49,7 @@ class SideBySide {
     m_.piece_of.clear();
     m_.live.clear();
     for (std::size_t i = 0; i < next_; ++i) {
-      m_.searches.emplace_back(pieces_[i], most_pieces_);
+      m_.searches.emplace_back(pieces_[i], most_pieces_, wanted_);
       m_.piece_of.push_back(i);
       m_.live.push_back(i);
     }
@@ -69,7 +71,7 @@ class SideBySide {
       }
       report(m_.piece_of[i], m_.searches[i]);
       if (next_ < pieces_.size()) {
-        m_.searches[i] = LineSearch(pieces_[next_], most_pieces_);
+        m_.searches[i] = LineSearch(pieces_[next_], most_pieces_, wanted_);
         m_.piece_of[i] = next_++;
       } else {
         m_.live[k] = m_.live.back();
@@ -143,6 +145,7 @@ class SideBySide {
   const LineProgram& program_;
   std::span<const LinePiece> pieces_;
   std::span<Root> roots_;
+  RootsWanted wanted_;
   RootWork& work_;
   Memory& m_;
   int most_pieces_;
@@ -162,13 +165,16 @@ Root walked_root(const ImplicitFormula& f, const LinePiece& piece, RootWork& wor
 }
 
 void first_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
-                 RootFinder finder, RootWork* work) {
-  if (finder == RootFinder::affine) {
-    first_roots_by_forms(f, pieces, roots, work);
-    return;
-  }
+                 RootFinder finder, RootWork* work, RootsWanted wanted) {
   RootWork own;
-  SideBySide(f, pieces, roots, work != nullptr ? *work : own).run();
+  RootWork& sum = work != nullptr ? *work : own;
+  if (finder == RootFinder::polynomial && f.program().degree()) {
+    first_roots_of_polynomials(f, pieces, roots, wanted, sum);
+  } else if (finder != RootFinder::interval) {
+    first_roots_by_forms(f, pieces, roots, wanted, sum);
+  } else {
+    SideBySide(f, pieces, roots, wanted, sum).run();
+  }
 }
 
 Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to,

@@ -11,7 +11,7 @@ namespace backlight {
 namespace implicit_value {
 inline constexpr std::size_t time_scale = 6;  ///< seconds_per_length
 inline constexpr std::size_t skips = 7;       ///< 1: unresolved roots are no surface
-inline constexpr std::size_t forms = 8;       ///< 1: first roots are found by affine forms
+inline constexpr std::size_t finder = 8;      ///< the RootFinder of first roots
 }  // namespace implicit_value
 
 /// Parts 1..6: the faces of the bounds, where they cut the inside.

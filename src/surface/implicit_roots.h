@@ -68,17 +68,25 @@ struct RootWork {
   std::size_t polish = 0;        ///< evaluations of f and its slope in double precision
   std::size_t forms = 0;         ///< pieces over which f was enclosed by an affine form
   std::size_t without_form = 0;  ///< those of them where there was none
+  std::size_t polynomials = 0;   ///< lines along which the polynomial was found
+  std::size_t parts = 0;         ///< pieces over which such a one was looked at
   std::size_t walked = 0;        ///< all of these that were done one line at a time, by RootWalk
   std::size_t given_up = 0;      ///< lines that were left to RootWalk
   /// Such lines are counted, and have no root. Lines of more than 200 pieces are among them.
   bool only_count = false;
 };
 
+/// Whether it matters where the first root is, or only whether there is any: then t is anywhere on the piece,
+/// and the root may be another one than the first.
+enum class RootsWanted : std::uint8_t { places, existence };
+
 /// The first root on each piece, or no_root(). The lines are searched side by side, over lanes; what is found
 /// of one does not depend on the others (line_search.h).
-/// `finder`: interval or affine. The work is added to `work`, if that is not null.
+/// `finder`: interval, affine, or, for a formula that has a LineProgram::degree(), polynomial. The work is
+/// added to `work`, if that is not null.
 void first_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
-                 RootFinder finder = RootFinder::interval, RootWork* work = nullptr);
+                 RootFinder finder = RootFinder::interval, RootWork* work = nullptr,
+                 RootsWanted wanted = RootsWanted::places);
 
 /// The same of one piece.
 Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to,

@@ -14,7 +14,6 @@
 namespace backlight {
 namespace {
 
-using implicit_value::forms;
 using implicit_value::skips;
 using implicit_value::time_scale;
 
@@ -75,7 +74,7 @@ bool skipped(const Shape& shape, const Root& root) {
 }
 
 RootFinder finder_of(const Shape& shape) {
-  return shape.values[forms] != 0.0 ? RootFinder::affine : RootFinder::interval;
+  return static_cast<RootFinder>(shape.values[implicit_value::finder]);
 }
 
 Crossing crossing_of(const Root& root) {
@@ -187,7 +186,7 @@ Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high,
   shape.blend = options.blend;
   if (!problem_of(shape).empty()) return shape;
   const RootFinder finder = options.finder ? *options.finder : choose_root_finder(*shape.formula, low, high);
-  shape.values[forms] = finder == RootFinder::affine ? 1.0 : 0.0;
+  shape.values[implicit_value::finder] = static_cast<double>(finder);
   return shape;
 }
 

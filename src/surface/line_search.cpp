@@ -18,8 +18,6 @@ constexpr double growth = 1.5;
 /// round numbers are left behind.
 constexpr double shorter = 0.61803398874989485;
 
-constexpr int most_polish_steps = 60;
-
 /// The sign of all numbers in the interval, or 0.
 int sign_of(const Interval& value) {
   if (value.continuity >= Continuity::partial) return 0;
@@ -32,8 +30,9 @@ double distance_from_zero(const Interval& value) {
 
 }  // namespace
 
-LineSearch::LineSearch(const LinePiece& piece, int most_steps)
+LineSearch::LineSearch(const LinePiece& piece, int most_steps, RootsWanted wanted)
     : piece_(&piece),
+      wanted_(wanted),
       begin_(piece.from),
       end_(piece.from + first_part * (piece.to - piece.from)),
       step_(end_ - begin_),
@@ -121,29 +120,21 @@ void LineSearch::advance(int sign, double size) {
 
 /// There is one root between the ends, and f is monotone there.
 void LineSearch::start_polishing() {
-  low_ = begin_;
-  high_ = end_;
-  root_ = {low_, RootKind::crossing, sign_begin_, sign_end_, low_, high_};
+  root_ = {begin_, RootKind::crossing, sign_begin_, sign_end_, begin_, end_};
+  if (wanted_ == RootsWanted::existence) {
+    state_ = State::with_root;
+    return;
+  }
+  bracket_ = {begin_, end_, sign_begin_ > 0, least_};
   // Where the secant through what is known of both ends meets zero.
   const double part = std::clamp(size_begin_ / (size_begin_ + size_end_), 0.01, 0.99);
-  const double secant = low_ + part * (high_ - low_);
-  ask_point(State::polish, secant > low_ && secant < high_ ? secant : 0.5 * low_ + 0.5 * high_);
+  const double secant = begin_ + part * (end_ - begin_);
+  ask_point(State::polish, secant > begin_ && secant < end_ ? secant : 0.5 * begin_ + 0.5 * end_);
 }
 
-/// Newton's method, kept inside a bracket that is halved when Newton's does not do better.
 void LineSearch::number_is(double value, double slope) {
-  const double t = point_;
-  const double width = high_ - low_;
-  ((value > 0.0) == (root_.sign_before > 0) ? low_ : high_) = t;
-  double next = t - value / slope;
-  const bool settled = value == 0.0 || std::abs(next - t) <= 0.03125 * least_;
-  if (!settled) {
-    const bool slow = polish_steps_ > 6 && high_ - low_ > 0.5 * width;
-    if (slow || !(next > low_ && next < high_)) next = 0.5 * low_ + 0.5 * high_;
-    point_ = next;
-    if (next > low_ && next < high_ && ++polish_steps_ < most_polish_steps) return;
-  }
-  root_.t = settled && value != 0.0 ? std::clamp(next, low_, high_) : t;
+  if (!bracket_.improve(point_, value, slope)) return;
+  root_.t = point_;
   state_ = State::with_root;
 }
 

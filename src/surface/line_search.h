@@ -8,13 +8,14 @@
 
 #include "backlight/expression/interval.h"
 #include "implicit_roots.h"
+#include "newton_bracket.h"
 
 namespace backlight {
 
 class LineSearch {
  public:
   /// The piece must outlive the search.
-  LineSearch(const LinePiece& piece, int most_steps);
+  LineSearch(const LinePiece& piece, int most_steps, RootsWanted wanted);
 
   [[nodiscard]] const LinePiece& piece() const { return *piece_; }
   [[nodiscard]] bool is_finished() const { return state_ >= State::without_root; }
@@ -46,6 +47,7 @@ class LineSearch {
   void start_polishing();
 
   const LinePiece* piece_;
+  RootsWanted wanted_;
   State state_ = State::piece;
   double begin_, end_;
   double step_;   ///< length of the next piece
@@ -62,10 +64,7 @@ class LineSearch {
   double slope_upper_ = 0.0;
   bool shortened_ = false;
 
-  // The bracket of the root.
-  double low_ = 0.0;
-  double high_ = 0.0;
-  int polish_steps_ = 0;
+  NewtonBracket bracket_{};
   Root root_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr int probes = 32;
 
 /// What a search does with one answer, besides the evaluation.
-constexpr EvaluationCosts for_each_answer{60.0, 60.0, 40.0, 40.0};
+constexpr EvaluationCosts for_each_answer{60.0, 60.0, 40.0, 40.0, 60.0, 0.0};
 
 /// A line that is given up costs as much as this many evaluations over a piece, one line at a time.
 constexpr double cost_of_walk = 1000.0;
@@ -22,7 +22,8 @@ constexpr double cost_of_walk = 1000.0;
 constexpr double cost_of_no_form = 60.0;
 
 EvaluationCosts operator+(const EvaluationCosts& a, const EvaluationCosts& b) {
-  return {a.piece + b.piece, a.point + b.point, a.number + b.number, a.form + b.form};
+  return {a.piece + b.piece, a.point + b.point,           a.number + b.number,
+          a.form + b.form,   a.polynomial + b.polynomial, a.part + b.part};
 }
 
 EvaluationCosts cost_of(Operation operation) {
@@ -83,11 +84,42 @@ LinePiece probe_line(int i, const Vec3& low, const Vec3& high) {
   return line;
 }
 
+/// Of a step in the arithmetic of polynomials: products of coefficients and their sums, sums of magnitudes.
+double polynomial_cost(const LineProgram::Step& step) {
+  const double each = 20.0;  // to go on to the next step, for the lanes of one register
+  const double a = step.degree_a + 1.0;
+  const double b = step.degree_b + 1.0;
+  switch (step.operation) {
+    case Operation::constant:
+    case Operation::variable:
+      return each;
+    case Operation::multiply:
+      if (step.constant_a || step.constant_b) return each + 4.0 * step.degree;
+      return each + 2.0 * a * b + 3.0 * (a + b);
+    case Operation::square:
+      return each + a * a + 6.0 * a;
+    case Operation::integer_power:
+      return each + 4.0 * step.degree * step.degree;
+    default:
+      return each + 4.0 * step.degree;
+  }
+}
+
+/// Of Taylor's shift, Bernstein's form and the signs of its coefficients. Lanes wait for each other: half as
+/// much again.
+double part_cost(int degree) {
+  return 1.5 * (2.0 * degree * degree + 14.0 * degree + 30.0);
+}
+
 }  // namespace
 
-EvaluationCosts evaluation_costs(const Tape& tape) {
+EvaluationCosts evaluation_costs(const LineProgram& program) {
   EvaluationCosts sum;
-  for (const Instruction& step : tape.instructions) sum = sum + cost_of(step.operation);
+  for (const LineProgram::Step& step : program.steps()) {
+    sum = sum + cost_of(step.operation);
+    if (program.degree()) sum.polynomial += polynomial_cost(step);
+  }
+  if (program.degree()) sum.part = part_cost(*program.degree());
   return sum;
 }
 
@@ -95,6 +127,8 @@ double cost_of(const RootWork& work, const EvaluationCosts& costs) {
   const EvaluationCosts each = costs + for_each_answer;
   return static_cast<double>(work.cells) * each.piece + static_cast<double>(work.points) * each.point +
          static_cast<double>(work.polish) * each.number + static_cast<double>(work.forms) * each.form +
+         static_cast<double>(work.polynomials) * each.polynomial +
+         static_cast<double>(work.parts) * each.part +
          static_cast<double>(work.without_form) * cost_of_no_form * costs.form +
          static_cast<double>(work.given_up) * cost_of_walk * costs.piece;
 }
@@ -110,10 +144,17 @@ RootWork probe(const ImplicitFormula& f, const Vec3& low, const Vec3& high, Root
 }
 
 RootFinder choose_root_finder(const ImplicitFormula& f, const Vec3& low, const Vec3& high) {
-  const EvaluationCosts costs = evaluation_costs(f.expression().tape());
-  const double intervals = cost_of(probe(f, low, high, RootFinder::interval), costs);
-  const double forms = cost_of(probe(f, low, high, RootFinder::affine), costs);
-  return forms < intervals ? RootFinder::affine : RootFinder::interval;
+  const EvaluationCosts costs = evaluation_costs(f.program());
+  RootFinder best = RootFinder::interval;
+  double least = std::numeric_limits<double>::infinity();
+  for (const RootFinder finder : {RootFinder::interval, RootFinder::affine, RootFinder::polynomial}) {
+    if (finder == RootFinder::polynomial && !f.program().degree()) continue;
+    const double cost = cost_of(probe(f, low, high, finder), costs);
+    if (!(cost < least)) continue;
+    best = finder;
+    least = cost;
+  }
+  return best;
 }
 
 }  // namespace backlight

@@ -8,12 +8,14 @@ namespace backlight {
 /// What evaluations of a formula take, in units of one addition over lanes. Fixed numbers, from counting the
 /// operations of the kernels: never a time.
 struct EvaluationCosts {
-  double piece = 0.0;   ///< bounds on f and its slope over a piece
-  double point = 0.0;   ///< bounds on f at a point
-  double number = 0.0;  ///< f and its slope in double precision
-  double form = 0.0;    ///< an affine form over a piece
+  double piece = 0.0;       ///< bounds on f and its slope over a piece
+  double point = 0.0;       ///< bounds on f at a point
+  double number = 0.0;      ///< f and its slope in double precision
+  double form = 0.0;        ///< an affine form over a piece
+  double polynomial = 0.0;  ///< the coefficients along a line
+  double part = 0.0;        ///< one look at such a polynomial in Bernstein's form
 };
-EvaluationCosts evaluation_costs(const Tape& tape);
+EvaluationCosts evaluation_costs(const LineProgram& program);
 
 /// The cost of a search.
 double cost_of(const RootWork& work, const EvaluationCosts& costs);

@@ -54,6 +54,8 @@ std::string_view name(RootFinder finder) {
       return "quartic";
     case RootFinder::interval:
       return "interval + derivative";
+    case RootFinder::polynomial:
+      return "polynomial";
     case RootFinder::affine:
       return "reduced affine";
     case RootFinder::solid:

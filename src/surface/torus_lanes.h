@@ -50,9 +50,6 @@ class TorusLanes {
   }
 
  private:
-  static BACKLIGHT_LANES V larger(V a, V b) { return select(a > b, a, b); }
-  static BACKLIGHT_LANES V smaller(V a, V b) { return select(a < b, a, b); }
-  static BACKLIGHT_LANES V magnitude(V a) { return larger(a, -a); }
   static BACKLIGHT_LANES V within(V a, V low, V high) { return smaller(larger(a, low), high); }
 
   struct ValueAndSlope {

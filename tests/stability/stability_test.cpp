@@ -161,7 +161,12 @@ std::vector<std::pair<std::string, Shape>> methods_for(const std::string& surfac
   if (surface == "torus") all.emplace_back("closed form", torus(1.0, 0.25));
   all.emplace_back("intervals", implicit_shape(named.f, named.half, RootFinder::interval));
   all.emplace_back("affine forms", implicit_shape(named.f, named.half, RootFinder::affine));
+  if (all.back().second.formula->program().degree()) {
+    all.emplace_back("polynomials", implicit_shape(named.f, named.half, RootFinder::polynomial));
+  }
   if (surface == "chmutov8") {
+    all.emplace_back("expanded, polynomials",
+                     implicit_shape(expanded_chmutov8, named.half, RootFinder::polynomial));
     all.emplace_back("expanded, intervals",
                      implicit_shape(expanded_chmutov8, named.half, RootFinder::interval));
     all.emplace_back("expanded, affine forms",

@@ -131,6 +131,41 @@ BACKLIGHT_LANES Lanes<N> sqrt(Lanes<N> a) {
   return root;
 }
 
+/// a > b ? a : b, which is b if either is not a number.
+template <class V>
+BACKLIGHT_LANES V larger(V a, V b) {
+#if defined(__AVX512F__)
+  if constexpr (V::width == 8) return (typename V::Vec)_mm512_max_pd((__m512d)a.v, (__m512d)b.v);
+#endif
+#if defined(__AVX__)
+  if constexpr (V::width == 4) return (typename V::Vec)_mm256_max_pd((__m256d)a.v, (__m256d)b.v);
+#endif
+#if defined(__SSE2__)
+  if constexpr (V::width == 2) return (typename V::Vec)_mm_max_pd((__m128d)a.v, (__m128d)b.v);
+#endif
+  return select(a > b, a, b);
+}
+
+/// a < b ? a : b, which is b if either is not a number.
+template <class V>
+BACKLIGHT_LANES V smaller(V a, V b) {
+#if defined(__AVX512F__)
+  if constexpr (V::width == 8) return (typename V::Vec)_mm512_min_pd((__m512d)a.v, (__m512d)b.v);
+#endif
+#if defined(__AVX__)
+  if constexpr (V::width == 4) return (typename V::Vec)_mm256_min_pd((__m256d)a.v, (__m256d)b.v);
+#endif
+#if defined(__SSE2__)
+  if constexpr (V::width == 2) return (typename V::Vec)_mm_min_pd((__m128d)a.v, (__m128d)b.v);
+#endif
+  return select(a < b, a, b);
+}
+
+template <class V>
+BACKLIGHT_LANES V magnitude(V a) {
+  return larger(a, -a);
+}
+
 /// Three coordinates of N things.
 template <class V>
 struct LaneVec3 {

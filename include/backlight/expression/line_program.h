@@ -7,8 +7,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "backlight/expression/line_polynomials.h"
 #include "backlight/expression/tape.h"
 
 namespace backlight {
@@ -69,6 +71,9 @@ class LineProgram {
     std::uint32_t out, a, b;  ///< as in Instruction
     bool constant_a = false;  ///< whether the operand is a constant of the tape
     bool constant_b = false;
+    // As polynomials along the line; what is of a higher degree than LinePolynomials, or none, has `none`.
+    static constexpr std::uint8_t none = 255;
+    std::uint8_t degree = none, degree_a = none, degree_b = none;
   };
 
   /// Of a tape with at most LineBatch::most_variables variables.
@@ -88,6 +93,15 @@ class LineProgram {
 
   /// Values and slopes at `from`, in double precision: Expression::evaluate to a few ulp (of each operation).
   void numbers(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const;
+
+  /// The expression as a polynomial on [from, to] of the first `count` lines, at most LinePolynomials::most.
+  /// To be asked of polynomials only.
+  void polynomials(LineBatch& lines, std::size_t count, std::vector<double>& workspace,
+                   LinePolynomials& found) const;
+
+  /// The expression's degree, if it is made of + - * and whole powers, and the degree is not above
+  /// LinePolynomials::most_degree; else nothing.
+  [[nodiscard]] std::optional<int> degree() const;
 
   [[nodiscard]] const Tape& tape() const { return tape_; }
   [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }

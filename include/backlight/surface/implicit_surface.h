@@ -26,14 +26,16 @@ struct ImplicitOptions {
   /// Of the formula's t for one unit of the frame's time (c = 1).
   double seconds_per_length = 1.0;
   std::shared_ptr<const ImplicitBlend> blend{};
-  /// `interval` or `affine`; nothing: choose_root_finder(), unless there is something wrong with the shape.
+  /// `interval`, `affine` or `polynomial` (where it is one; else by forms); nothing: choose_root_finder(),
+  /// unless there is something wrong with the shape.
   std::optional<RootFinder> finder{};
 };
 
-/// Which search for the first roots of a formula within a box takes less work: intervals with slopes, or
-/// reduced affine forms. Both are tried on 32 fixed lines, the steps are counted, and each is weighted by a
-/// fixed cost for every operation of the formula: no time is measured, so that the choice is the same
-/// everywhere. Takes about as long as some hundred rays.
+/// Which search for the first roots of a formula within a box takes the least work: intervals with slopes,
+/// reduced affine forms or, for a polynomial of low degree, its coefficients along each ray. All are tried on
+/// 32 fixed lines, the steps are counted, and each is weighted by a fixed cost for every operation of the
+/// formula: no time is measured, so that the choice is the same everywhere. Takes about as long as some
+/// hundred rays.
 RootFinder choose_root_finder(const ImplicitFormula& f, const Vec3& low, const Vec3& high);
 
 /// As implicit(f, low, high) of surface/shape.h.

@@ -92,6 +92,7 @@ enum class RootFinder : std::uint8_t {
   closed_form,  ///< to degree 2
   quartic,      ///< the torus's own solver
   interval,     ///< a formula: bounds on it and on its slope
+  polynomial,   ///< a formula that is a polynomial: its coefficients along the ray, Bernstein's form
   affine,       ///< a formula: reduced affine forms, bounds on the slope where a root is
   solid         ///< the events of the parts of a solid, each found in its own way, in their order
 };
@@ -99,7 +100,7 @@ enum class RootFinder : std::uint8_t {
 /// Which of them the shape's camera and shadow rays take.
 RootFinder root_finder(const Shape& shape);
 
-/// "closed form", "quartic", "interval + derivative", "reduced affine", "CSG".
+/// "closed form", "quartic", "interval + derivative", "polynomial", "reduced affine", "CSG".
 std::string_view name(RootFinder finder);
 
 /// The name of the shape's root finder; of a solid those of its parts too, each once: "CSG of closed form and

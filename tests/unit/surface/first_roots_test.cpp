@@ -81,6 +81,35 @@ INSTANTIATE_TEST_SUITE_P(
             "128*x^8-256*x^6+160*x^4-32*x^2+128*y^8-256*y^6+160*y^4-32*y^2+128*z^8-256*z^6+160*z^4-32*z^2+4"),
         testing::Values(RootFinder::interval, RootFinder::affine)));
 
+INSTANTIATE_TEST_SUITE_P(
+    Polynomials, FirstRoots,
+    testing::Combine(
+        testing::Values(
+            "4*(2.618*x^2-y^2)*(2.618*y^2-z^2)*(2.618*z^2-x^2)-4.236*(x^2+y^2+z^2-1)^2", "(x^2+y^2+z^2-1)^2",
+            "(x^2+y^2+z^2+0.96)^2-4*(x^2+z^2)", "x^2 + y^2 + z^2 - 1 - 0.5*t*x", "z - 0.1*t",
+            "128*x^8-256*x^6+160*x^4-32*x^2+128*y^8-256*y^6+160*y^4-32*y^2+128*z^8-256*z^6+160*z^4-32*z^2+4",
+            "((x^2+y^2-0.5)^2+z^2-0.01)*((y^2+z^2-0.5)^2+x^2-0.01)*((z^2+x^2-0.5)^2+y^2-0.01)-1e-4"),
+        testing::Values(RootFinder::polynomial)));
+
+// Whether there is a root at all is the same, whether or not its place is wanted.
+TEST_P(FirstRoots, ExistWhereTheyAreFound) {
+  const auto pieces = lines(300);
+  const auto [text, finder] = GetParam();
+  const ImplicitFormula f = formula(text);
+  std::vector<Root> places(pieces.size());
+  std::vector<Root> existing(pieces.size());
+  RootWork work;
+  first_roots(f, pieces, places, finder);
+  first_roots(f, pieces, existing, finder, &work, RootsWanted::existence);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    ASSERT_EQ(found(places[i]), found(existing[i])) << i;
+    if (!found(places[i])) continue;
+    EXPECT_GE(existing[i].t, pieces[i].from);
+    EXPECT_LE(existing[i].t, pieces[i].to);
+  }
+  EXPECT_EQ(work.polish, 0U);
+}
+
 TEST(FirstRoots, OfNothingAreNone) {
   const ImplicitFormula f = formula("x^2 + y^2 + z^2 - 1");
   first_roots(f, {}, {});
@@ -96,7 +125,8 @@ TEST(FirstRoots, AreThoseOfTangentLinesToo) {
     const double off = std::pow(10.0, -e);
     for (const auto& [y, finder] :
          {std::pair{1.0 - off, RootFinder::interval}, std::pair{1.0 + off, RootFinder::interval},
-          std::pair{1.0 - off, RootFinder::affine}, std::pair{1.0 + off, RootFinder::affine}}) {
+          std::pair{1.0 - off, RootFinder::affine}, std::pair{1.0 + off, RootFinder::affine},
+          std::pair{1.0 - off, RootFinder::polynomial}, std::pair{1.0 + off, RootFinder::polynomial}}) {
       const Root root = first_root(f, {{0, y, 0, 0}, {1, 0, 0, 0}}, -2.0, 2.0, finder);
       ASSERT_EQ(found(root), y < 1.0) << y - 1.0;
       if (y > 1.0) continue;
@@ -109,7 +139,7 @@ TEST(FirstRoots, AreThoseOfTangentLinesToo) {
 // A shadow ray leaves from next to the surface: it meets it no more, or again beyond.
 TEST(FirstRoots, AreNotTheStartOfALineThatLeaves) {
   const ImplicitFormula f = formula("x^2 + y^2 + z^2 - 1");
-  for (const RootFinder finder : {RootFinder::interval, RootFinder::affine}) {
+  for (const RootFinder finder : {RootFinder::interval, RootFinder::affine, RootFinder::polynomial}) {
     for (const double off : {1e-3, 1e-9, 1e-14}) {
       const FormulaLine line{{0.3, -0.2, 0.1, 0}, {0.6, 0.8, 0, 0}};
       const double middle = -(0.3 * 0.6 - 0.2 * 0.8);
@@ -123,11 +153,14 @@ TEST(FirstRoots, AreNotTheStartOfALineThatLeaves) {
 }
 
 // The choice is made by counting, so it is known.
-TEST(RootChoice, TakesFormsWhereTheyNeedFewerSteps) {
+TEST(RootChoice, TakesTheSearchOfFewestSteps) {
   const Vec3 corner{1.25};
   for (const char* text :
        {"128*x^8-256*x^6+160*x^4-32*x^2+128*y^8-256*y^6+160*y^4-32*y^2+128*z^8-256*z^6+160*z^4-32*z^2+4",
         "4*(2.618*x^2-y^2)*(2.618*y^2-z^2)*(2.618*z^2-x^2)-4.236*(x^2+y^2+z^2-1)^2"}) {
+    EXPECT_EQ(choose_root_finder(formula(text), -corner, corner), RootFinder::polynomial) << text;
+  }
+  for (const char* text : {"sin(3*x)*cos(3*y)+sin(3*y)*cos(3*z)+sin(3*z)*cos(3*x)", "x^2+y^2+z^14-1"}) {
     EXPECT_EQ(choose_root_finder(formula(text), -corner, corner), RootFinder::affine) << text;
   }
   // Forms cannot be made of roots of what is never negative, but comes near to it.
@@ -149,7 +182,7 @@ TEST(RootChoice, IsWhatTheShapeSays) {
   const auto f = std::make_shared<const ImplicitFormula>(formula("x^2 + y^2 + z^2 - 1"));
   const Vec3 corner{1.25};
   EXPECT_EQ(root_finder(implicit(f, -corner, corner)), choose_root_finder(*f, -corner, corner));
-  for (const RootFinder finder : {RootFinder::interval, RootFinder::affine}) {
+  for (const RootFinder finder : {RootFinder::interval, RootFinder::affine, RootFinder::polynomial}) {
     ImplicitOptions options;
     options.finder = finder;
     EXPECT_EQ(root_finder(implicit(f, -corner, corner, options)), finder);

@@ -30,6 +30,7 @@ TEST(Shape, RootFindersHaveNames) {
   EXPECT_EQ(name(RootFinder::closed_form), "closed form");
   EXPECT_EQ(name(RootFinder::quartic), "quartic");
   EXPECT_EQ(name(RootFinder::interval), "interval + derivative");
+  EXPECT_EQ(name(RootFinder::polynomial), "polynomial");
   EXPECT_EQ(name(RootFinder::affine), "reduced affine");
   EXPECT_EQ(name(RootFinder::solid), "CSG");
 }
