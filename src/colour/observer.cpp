@@ -113,20 +113,19 @@ const WavelengthSet& wavelength_set(int count) {
 }
 
 LinearRgb WavelengthSet::film(const double* radiance) const {
-  // Every other one apart: a sum waits for the one before it.
-  const std::size_t pairs = nm_.size() / 2 * 2;
-  LinearRgb even{0.0};
-  LinearRgb odd{0.0};
-  for (std::size_t i = 0; i < pairs; i += 2) {
-    even.x += radiance[i] * red_[i];
-    even.y += radiance[i] * green_[i];
-    even.z += radiance[i] * blue_[i];
-    odd.x += radiance[i + 1] * red_[i + 1];
-    odd.y += radiance[i + 1] * green_[i + 1];
-    odd.z += radiance[i + 1] * blue_[i + 1];
-  }
-  if (pairs < nm_.size()) even += radiance[pairs] * LinearRgb{red_[pairs], green_[pairs], blue_[pairs]};
-  return even + odd;
+  static const SpectralKernels& widest = spectral_kernels(InstructionSet::widest);
+  return film(radiance, widest);
+}
+
+LinearRgb WavelengthSet::film(const double* radiance, const SpectralKernels& kernels) const {
+  return film(radiance, nullptr, kernels);
+}
+
+LinearRgb WavelengthSet::film(const double* lamp, const double* reflectance,
+                              const SpectralKernels& kernels) const {
+  double colour[3];
+  kernels.film({red_.data(), green_.data(), blue_.data()}, lamp, reflectance, size(), colour);
+  return {colour[0], colour[1], colour[2]};
 }
 
 LinearRgb WavelengthSet::weight(int i) const {

@@ -1,6 +1,8 @@
 #include "planck.h"
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "backlight/colour/spectrum.h"
 #include "cie_tables.h"

@@ -1,6 +1,7 @@
 #include "backlight/colour/spectrum.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "planck.h"
@@ -9,14 +10,10 @@
 namespace backlight {
 namespace {
 
-constexpr double d65_kelvin = 6504.0;
-
-// The width in nm of the blend from the ends of the visible range to a level beyond it.
-constexpr double blend_nm = 60.0;
-
-// Logarithm of the scale that joins the 6504 K blackbody to D65's table at `nm`.
+// What joins the blackbody to D65's table at `nm`: a factor on nm^-5 / (exp(x) - 1).
 double d65_joint(double nm) {
-  return std::log(planck::relative_radiance(d65_kelvin, nm, 0.0) / cie::d65_in_table(nm));
+  const double x = planck::second_constant_nm_kelvin / planck::d65_kelvin / nm;
+  return cie::d65_in_table(nm) * std::pow(nm, 5.0) * std::expm1(x);
 }
 
 double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
@@ -45,12 +42,16 @@ std::string fault_of(const std::vector<double>& wavelengths, const std::vector<d
   return {};
 }
 
-template <class Radiance>
-LinearRgb sum_over_film(const Radiance& radiance) {
+// The sum over the observer's table of the product of the spectra; `light` null: 1.
+LinearRgb sum_over_film(const Spectrum& radiance, const Spectrum* light) {
+  std::array<double, cie::sample_count> nm, value, factor;
+  for (std::size_t i = 0; i < nm.size(); ++i) nm[i] = cie::first_nm + static_cast<double>(i);
+  radiance.evaluate(nm.data(), cie::sample_count, value.data());
+  if (light != nullptr) light->evaluate(nm.data(), cie::sample_count, factor.data());
   LinearRgb sum{0.0};
-  for (std::size_t i = 0; i < rec709::film_weights.size(); ++i) {
+  for (std::size_t i = 0; i < nm.size(); ++i) {
     const auto& w = rec709::film_weights[i];
-    sum += radiance(cie::first_nm + static_cast<double>(i)) * LinearRgb{w[0], w[1], w[2]};
+    sum += (light == nullptr ? value[i] : factor[i] * value[i]) * LinearRgb{w[0], w[1], w[2]};
   }
   return sum;
 }
@@ -59,8 +60,14 @@ LinearRgb sum_over_film(const Radiance& radiance) {
 
 Spectrum Spectrum::constant(double value) {
   Spectrum result;
-  result.scale_ = value;
+  result.form_.scale = value;
   return result;
+}
+
+void Spectrum::set_shape(const SigmoidReflectance& shape) {
+  form_.c0 = shape.c0;
+  form_.c1 = shape.c1;
+  form_.c2 = shape.c2;
 }
 
 Spectrum Spectrum::reflectance(const LinearRgb& rgb, std::optional<double> uv, std::optional<double> ir) {
@@ -73,11 +80,14 @@ Spectrum Spectrum::reflectance(const LinearRgb& rgb, std::optional<double> uv, s
 Spectrum Spectrum::sigmoid_reflectance(const SigmoidReflectance& shape, std::optional<double> uv,
                                        std::optional<double> ir) {
   Spectrum result;
-  result.kind_ = Kind::sigmoid;
-  result.scale_ = 1.0;
-  result.shape_ = shape;
-  result.uv_ = uv ? std::clamp(*uv, 0.0, 1.0) : shape.at(cie::first_nm);
-  result.ir_ = ir ? std::clamp(*ir, 0.0, 1.0) : shape.at(cie::last_nm);
+  result.form_.kind = Kind::sigmoid;
+  result.form_.scale = 1.0;
+  result.set_shape(shape);
+  const double first = shape.at(cie::first_nm), last = shape.at(cie::last_nm);
+  result.form_.uv = uv ? std::clamp(*uv, 0.0, 1.0) : first;
+  result.form_.ir = ir ? std::clamp(*ir, 0.0, 1.0) : last;
+  // Most have no levels of their own: there, the blend would add nothing.
+  result.form_.levelled = result.form_.uv != first || result.form_.ir != last;
   return result;
 }
 
@@ -88,18 +98,20 @@ Spectrum Spectrum::illuminant(const LinearRgb& rgb) {
   if (possible.x == possible.y && possible.y == possible.z) return d65().scaled(most);
   // A sigmoid that peaks near 1/2 is smoother than one that must reach 1.
   Spectrum result = d65();
-  result.kind_ = Kind::illuminant;
-  result.scale_ = 2.0 * most;
-  result.shape_ = fit_sigmoid(possible * (0.5 / most));
+  result.form_.kind = Kind::illuminant;
+  result.form_.scale = 2.0 * most;
+  result.set_shape(fit_sigmoid(possible * (0.5 / most)));
   return result;
 }
 
 Spectrum Spectrum::d65() {
   Spectrum result;
-  result.kind_ = Kind::d65;
-  result.scale_ = 1.0;
-  result.short_log_scale_ = d65_joint(cie::first_nm);
-  result.long_log_scale_ = d65_joint(cie::last_nm);
+  static const double short_factor = d65_joint(cie::first_nm);
+  static const double long_factor = d65_joint(cie::last_nm);
+  result.form_.kind = Kind::d65;
+  result.form_.scale = 1.0;
+  result.form_.short_factor = short_factor;
+  result.form_.long_factor = long_factor;
   return result;
 }
 
@@ -109,70 +121,26 @@ Spectrum Spectrum::blackbody(double kelvin) {
 
 Spectrum Spectrum::blackbody(double kelvin, double reference_kelvin) {
   Spectrum result;
-  result.kind_ = Kind::blackbody;
-  result.scale_ = 1.0;
-  result.kelvin_ = kelvin;
-  result.long_log_scale_ = planck::log_film_luminance(reference_kelvin);
+  result.form_.kind = Kind::blackbody;
+  result.form_.scale = 1.0;
+  result.form_.kelvin = kelvin;
+  result.form_.log_scale = planck::log_film_luminance(reference_kelvin);
   return result;
 }
 
 SpectrumOrError Spectrum::tabulated(std::vector<double> wavelengths, std::vector<double> values) {
   if (std::string fault = fault_of(wavelengths, values); !fault.empty()) return {{}, std::move(fault)};
   Spectrum result;
-  result.kind_ = Kind::tabulated;
-  result.scale_ = 1.0;
+  result.form_.kind = Kind::tabulated;
+  result.form_.scale = 1.0;
   result.table_ = std::make_shared<const Table>(Table{std::move(wavelengths), std::move(values)});
   return {std::move(result), {}};
 }
 
 Spectrum Spectrum::scaled(double factor) const {
   Spectrum result = *this;
-  result.scale_ *= factor;
+  result.form_.scale *= factor;
   return result;
-}
-
-double Spectrum::reflectance_at(double nm) const {
-  const double inside = shape_.at(nm);
-  if (nm < cie::first_nm) {
-    return inside + std::min((cie::first_nm - nm) / blend_nm, 1.0) * (uv_ - inside);
-  }
-  if (nm > cie::last_nm) return inside + std::min((nm - cie::last_nm) / blend_nm, 1.0) * (ir_ - inside);
-  return inside;
-}
-
-double Spectrum::d65_at(double nm) const {
-  if (nm < cie::first_nm) return planck::relative_radiance(d65_kelvin, nm, short_log_scale_);
-  if (nm > cie::last_nm) return planck::relative_radiance(d65_kelvin, nm, long_log_scale_);
-  return cie::d65_in_table(nm);
-}
-
-// Hands the visitor this spectrum as a function of the wavelength: the kind is looked up once for a whole
-// batch.
-template <class Visitor>
-void Spectrum::visit(const Visitor& visitor) const {
-  const double scale = scale_;
-  switch (kind_) {
-    case Kind::constant:
-      return visitor([scale](double) { return scale; });
-    case Kind::sigmoid:
-      // Most have no levels of their own outside the visible range: there, the blend would add nothing.
-      if (uv_ == shape_.at(cie::first_nm) && ir_ == shape_.at(cie::last_nm)) {
-        return visitor([shape = shape_, scale](double nm) { return scale * shape.at(nm); });
-      }
-      return visitor([this, scale](double nm) { return scale * reflectance_at(nm); });
-    case Kind::d65:
-      return visitor([this, scale](double nm) { return scale * d65_at(nm); });
-    case Kind::illuminant:
-      return visitor([this, scale](double nm) { return scale * (shape_.at(nm) * d65_at(nm)); });
-    case Kind::blackbody:
-      return visitor([this, scale](double nm) {
-        const double value = scale * planck::relative_radiance(kelvin_, nm, long_log_scale_);
-        return std::min(value, std::numeric_limits<double>::max());
-      });
-    case Kind::tabulated:
-      return visitor(
-          [this, scale](double nm) { return scale * interpolate(table_->nm, table_->values, nm); });
-  }
 }
 
 double Spectrum::at(double nm) const {
@@ -182,37 +150,29 @@ double Spectrum::at(double nm) const {
 }
 
 void Spectrum::evaluate(const double* nm, int n, double* out) const {
-  if (kind_ == Kind::d65) {
-    // The test of where each is, apart from the look-up in the table: most are in it.
-    bool all_inside = true;
-    for (int i = 0; i < n; ++i) {
-      const double at = nm[i];
-      all_inside &= (at >= cie::first_nm) & (at <= cie::last_nm);
-      out[i] = scale_ * cie::d65_in_table(std::clamp(at, double{cie::first_nm}, double{cie::last_nm}));
-    }
-    for (int i = 0; i < n && !all_inside; ++i) {
-      if (!(nm[i] >= cie::first_nm && nm[i] <= cie::last_nm)) out[i] = scale_ * d65_at(nm[i]);
-    }
+  static const SpectralKernels& widest = spectral_kernels(InstructionSet::widest);
+  evaluate(nm, n, out, widest);
+}
+
+void Spectrum::evaluate(const double* nm, int n, double* out, const SpectralKernels& kernels) const {
+  if (form_.kind != Kind::tabulated) {
+    kernels.evaluate(form_, nm, n, out);
     return;
   }
-  visit([nm, n, out](const auto& value_at) {
-    for (int i = 0; i < n; ++i) out[i] = value_at(nm[i]);
-  });
+  for (int i = 0; i < n; ++i) out[i] = form_.scale * interpolate(table_->nm, table_->values, nm[i]);
 }
 
 bool Spectrum::is_grey() const {
-  if (scale_ == 0.0 || kind_ == Kind::constant) return true;
-  const bool flat = shape_.c0 == 0.0 && shape_.c1 == 0.0;
-  const double level = shape_.at(cie::first_nm);
-  return kind_ == Kind::sigmoid && flat && uv_ == level && ir_ == level;
+  if (form_.scale == 0.0 || form_.kind == Kind::constant) return true;
+  return form_.kind == Kind::sigmoid && form_.c0 == 0.0 && form_.c1 == 0.0 && !form_.levelled;
 }
 
 bool Spectrum::is_d65_shaped() const {
-  return scale_ == 0.0 || kind_ == Kind::d65;
+  return form_.scale == 0.0 || form_.kind == Kind::d65;
 }
 
 LinearRgb film_colour(const Spectrum& emission) {
-  return sum_over_film([&](double nm) { return emission.at(nm); });
+  return sum_over_film(emission, nullptr);
 }
 
 LinearRgb colour_under_d65(const Spectrum& reflectance) {
@@ -220,7 +180,7 @@ LinearRgb colour_under_d65(const Spectrum& reflectance) {
 }
 
 LinearRgb colour_under(const Spectrum& light, const Spectrum& reflectance) {
-  return sum_over_film([&](double nm) { return light.at(nm) * reflectance.at(nm); });
+  return sum_over_film(reflectance, &light);
 }
 
 }  // namespace backlight

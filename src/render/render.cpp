@@ -95,7 +95,8 @@ struct ImageTracing::Parts {
     }
     const SheetTracer* in_use = sheets ? &*sheets : nullptr;
     views = views_of(tracer, in_use, settings, partial);
-    for (int i = 0; i < std::max(1, settings.threads); ++i) memories.emplace_back(tracer, in_use);
+    for (int i = 0; i < std::max(1, settings.threads); ++i)
+      memories.emplace_back(tracer, in_use, settings.instructions);
   }
 
   const RenderSettings settings;

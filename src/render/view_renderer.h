@@ -19,8 +19,8 @@ namespace backlight {
 
 // What one thread works with.
 struct ThreadMemory {
-  explicit ThreadMemory(const Tracer& tracer, const SheetTracer* sheets)
-      : scratch(tracer.make_scratch()), sheet(nullptr, nullptr) {
+  ThreadMemory(const Tracer& tracer, const SheetTracer* sheets, InstructionSet set)
+      : scratch(tracer.make_scratch(set)), sheet(nullptr, nullptr) {
     if (sheets != nullptr) sheet = sheets->make_scratch();
     const FilmSettings& film = tracer.scene().film;
     if (film.adaptive) sampler.emplace(film.tolerance, PixelBox{0, 0, film.width, film.height});

@@ -52,8 +52,13 @@ void for_each_lamp(const ShadingContext& context, const SeenPoint& point, const 
 
 }  // namespace
 
-Scratch::Scratch(const Hub& hub, const Scene& scene, std::size_t count)
-    : rays(hub), wavelengths(count), at_light(count), reflectance(count), lamp(count), radiance(count) {
+Scratch::Scratch(const Hub& hub, const Scene& scene, std::size_t count, InstructionSet set)
+    : rays(hub),
+      kernels(&spectral_kernels(set)),
+      wavelengths(count),
+      at_light(count),
+      reflectance(count),
+      lamp(count) {
   for (const Light& light : scene.lights) light_variables.push_back(light.variables);
 }
 
@@ -77,15 +82,20 @@ Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, cons
   return out;
 }
 
-void shade_spectrum(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
-                    Scratch& s) {
+LinearRgb shade_shifted(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
+                        Scratch& s) {
   const int index = material_of(*context.scene, point.hit, point.surface);
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
-  begin_spectrum(material, point.surface.u, point.surface.v, s);
+  const WavelengthSet& set = *context.wavelengths;
+  LinearRgb sum = emitted_colour(material, set, s);
+  const std::optional<double> grey = fill_reflectance(material, point.surface.u, point.surface.v, s);
   for_each_lamp(context, point, effects, material, s,
                 [&](std::size_t light, double irradiance, double specular, const Arrival& a) {
-                  add_spectrum(context.scene->lights[light], a.doppler, irradiance, specular, s);
+                  const LampColours lamp =
+                      lamp_colours(context.scene->lights[light], a.doppler, material, grey, set, s);
+                  sum += reflected_colour(lamp, a.doppler, irradiance, specular);
                 });
+  return sum;
 }
 
 int lamps_reaching(const ShadingContext& context, const SeenPoint& point, const Effects& effects,

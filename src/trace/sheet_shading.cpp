@@ -413,39 +413,6 @@ void SheetShader::light_rgb(const Material& material, int material_index, const 
   sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, p);
 }
 
-void SheetShader::light_spectra(const Material& material, const Effects& effects) {
-  PointSheet& p = work_.points;
-  const std::vector<Light>& lights = tracer_.scene().lights;
-  // First what of each lamp reaches the points, then, point by point, its spectrum.
-  work_.lamp_light.resize(lights.size());
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    LaneReflection reflection;
-    SheetScratch::Lamp& lamp = work_.lamp_light[i];
-    lamp.arrives = light_arrives(i, effects, material, reflection);
-    if (!lamp.arrives) continue;
-    std::copy_n(p.lit, p.count, lamp.lit);
-    std::copy_n(p.irradiance, p.count, lamp.irradiance);
-    std::copy_n(p.specular, p.count, lamp.specular);
-    std::copy_n(p.lamp_doppler, p.count, lamp.doppler);
-  }
-  const double gamma = tracer_.hub().frames[frame()].from_camera.gamma();
-  for (int lane = 0; lane < p.count; ++lane) {
-    const DopplerFactor<Camera, Rest> doppler{p.doppler[lane]};
-    for (std::size_t k = 0; k < scratch_.wavelengths.size(); ++k) {
-      scratch_.wavelengths[k] = wavelength_at_origin(doppler, tracer_.wavelengths().nm()[k]);
-    }
-    begin_spectrum(material, p.u[lane], p.v[lane], scratch_);
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-      const SheetScratch::Lamp& lamp = work_.lamp_light[i];
-      if (!lamp.arrives || !(lamp.lit[lane] > 0.0)) continue;
-      add_spectrum(lights[i], {lamp.doppler[lane]}, lamp.irradiance[lane], lamp.specular[lane], scratch_);
-    }
-    const double factor =
-        radiance_factor(doppler, gamma, effects.towards_camera()) * wavelength_density_factor(doppler);
-    put(factor * tracer_.wavelengths().film(scratch_.radiance.data()), p.rgb, lane);
-  }
-}
-
 bool SheetShader::shade(const Occupant& occupant, const Effects& effects) {
   const int index = resolve(occupant);
   if (index < 0) return false;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "shading_steps.h"
 #include "sheet_scene.h"
 
 namespace backlight {
@@ -54,6 +55,9 @@ struct SheetScratch {
     double irradiance[sheet_size];
     double specular[sheet_size];
     double doppler[sheet_size];
+    bool known;  ///< `colours` are those that the lamp has on the points, at this Doppler factor
+    double known_doppler;
+    LampColours colours;
   };
   std::vector<Lamp> lamp_light;
 };

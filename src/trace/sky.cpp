@@ -60,24 +60,20 @@ Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray) {
   return {sky.texture ? texture_at(sky, ray.direction) : sky.radiance.rgb};
 }
 
-void sky_spectrum(const Sky& sky, const RestRayEvents& ray, Scratch& s) {
-  const int n = static_cast<int>(s.wavelengths.size());
-  if (!sky.emits) {
-    std::fill(s.radiance.begin(), s.radiance.end(), 0.0);
-    return;
-  }
+LinearRgb sky_shifted(const Sky& sky, const RestRayEvents& ray, const WavelengthSet& set, Scratch& s) {
+  if (!sky.emits) return LinearRgb{0.0};
+  const double* nm = s.wavelengths.data();
   if (!sky.texture) {
-    sky.radiance.spectrum.evaluate(s.wavelengths.data(), n, s.radiance.data());
-    return;
+    sky.radiance.spectrum.evaluate(nm, set.size(), s.lamp.data(), *s.kernels);
+    return set.film(s.lamp.data(), *s.kernels);
   }
   // D65 times a reflectance of half the texel's largest component, as for any coloured light.
   const LinearRgb rgb = glm::max(texture_at(sky, ray.direction), 0.0);
   const double scale = 2.0 * std::max({rgb.r, rgb.g, rgb.b});
   const SigmoidReflectance shape = upsample(scale > 0.0 ? rgb / scale : rgb);
-  Spectrum::d65().evaluate(s.wavelengths.data(), n, s.lamp.data());
-  for (std::size_t i = 0; i < s.wavelengths.size(); ++i) {
-    s.radiance[i] = scale * s.lamp[i] * shape.at(s.wavelengths[i]);
-  }
+  Spectrum::d65().scaled(scale).evaluate(nm, set.size(), s.lamp.data(), *s.kernels);
+  Spectrum::sigmoid_reflectance(shape).evaluate(nm, set.size(), s.reflectance.data(), *s.kernels);
+  return set.film(s.lamp.data(), s.reflectance.data(), *s.kernels);
 }
 
 std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const WavelengthSet& wavelengths) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "light_record.h"
+#include "shading_steps.h"
 
 namespace backlight {
 namespace {
@@ -45,8 +46,8 @@ Tracer::Tracer(const Scene& scene, int wavelengths)
     rest_colours_ = RestColours(scene, wavelengths_);
 }
 
-Scratch Tracer::make_scratch() const {
-  return {hub_, *scene_, spectral_ ? wavelengths_.nm().size() : 0};
+Scratch Tracer::make_scratch(InstructionSet set) const {
+  return {hub_, *scene_, spectral_ ? wavelengths_.nm().size() : 0, set};
 }
 
 LinearRgb Tracer::colour(const CameraRay& ray, const Effects& effects, Scratch& scratch) const {
@@ -68,7 +69,7 @@ LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Eff
   const DopplerFactor<Camera, Rest> doppler = events.doppler(ray.light_delay);
   const double gamma = hub_.frames[static_cast<std::size_t>(frame)].from_camera.gamma();
   const BrightnessSwitches& factors = effects.towards_camera();
-  const ShadingContext context{scene_, &hub_, &rest_colours_};
+  const ShadingContext context{scene_, &hub_, &rest_colours_, &wavelengths_};
 
   if (!spectral_ || !effects.doppler) {
     // Light into the surface from its retarded event, shadow ray, reflection in the rest frame: (10)-(12).
@@ -77,16 +78,11 @@ LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Eff
                     : sky_radiance(scene_->sky, events);
     return carry(radiance, doppler, gamma, factors).rgb;
   }
-  for (std::size_t i = 0; i < scratch.wavelengths.size(); ++i) {
-    scratch.wavelengths[i] = wavelength_at_origin(doppler, wavelengths_.nm()[i]);
-  }
-  if (hit.found()) {
-    shade_spectrum(context, seen_point(hub_, scratch.rays, hit), effects, scratch);
-  } else {
-    sky_spectrum(scene_->sky, events, scratch);
-  }
-  const double factor = radiance_factor(doppler, gamma, factors) * wavelength_density_factor(doppler);
-  return factor * wavelengths_.film(scratch.radiance.data());
+  shift_wavelengths(doppler, wavelengths_, scratch);
+  const LinearRgb radiance =
+      hit.found() ? shade_shifted(context, seen_point(hub_, scratch.rays, hit), effects, scratch)
+                  : sky_shifted(scene_->sky, events, wavelengths_, scratch);
+  return radiance_factor(doppler, gamma, factors) * wavelength_density_factor(doppler) * radiance;
 }
 
 SurfaceRecord Tracer::surface(const CameraRay& ray, Scratch& scratch) const {

@@ -3,6 +3,13 @@
 
 namespace backlight {
 
+/// Which instructions kernels over lanes use. All give the same bits.
+enum class InstructionSet {
+  widest,   ///< the most lanes that this machine has
+  avx2,     ///< four lanes, where it has them
+  baseline  ///< those that every machine of its kind has
+};
+
 /// Four lanes.
 inline bool has_avx2() {
 #if defined(__x86_64__)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "backlight/colour/rgb.h"
+#include "backlight/colour/spectral_kernels.h"
 
 namespace backlight {
 
@@ -35,6 +36,11 @@ class WavelengthSet {
 
   /// The linear colour of the spectral radiance radiance[i] at nm()[i], relative to `Spectrum::d65()`.
   [[nodiscard]] LinearRgb film(const double* radiance) const;
+  [[nodiscard]] LinearRgb film(const double* radiance, const SpectralKernels& kernels) const;
+
+  /// The same of the radiance lamp[i] reflectance[i].
+  [[nodiscard]] LinearRgb film(const double* lamp, const double* reflectance,
+                               const SpectralKernels& kernels) const;
 
   /// What a radiance 1 at nm()[i] alone adds to the film.
   [[nodiscard]] LinearRgb weight(int i) const;

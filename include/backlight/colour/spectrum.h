@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backlight/colour/rgb.h"
+#include "backlight/colour/spectral_kernels.h"
 #include "backlight/colour/upsampling.h"
 
 namespace backlight {
@@ -69,8 +70,9 @@ class Spectrum {
   /// The value at `nm` > 0.
   [[nodiscard]] double at(double nm) const;
 
-  /// out[i] = at(nm[i]) for i < n, to the same bits.
+  /// out[i] = at(nm[i]) for i < n, to the same bits, whichever kernels do it.
   void evaluate(const double* nm, int n, double* out) const;
+  void evaluate(const double* nm, int n, double* out, const SpectralKernels& kernels) const;
 
   /// The same at every wavelength: a reflectance that no shift changes.
   [[nodiscard]] bool is_grey() const;
@@ -80,27 +82,16 @@ class Spectrum {
   [[nodiscard]] bool is_d65_shaped() const;
 
  private:
-  enum class Kind { constant, sigmoid, d65, illuminant, blackbody, tabulated };
+  using Kind = SpectrumForm::Kind;
   struct Table {
     std::vector<double> nm;
     std::vector<double> values;
   };
 
-  template <class Visitor>
-  void visit(const Visitor& visitor) const;
+  void set_shape(const SigmoidReflectance& shape);
 
-  [[nodiscard]] double reflectance_at(double nm) const;
-  [[nodiscard]] double d65_at(double nm) const;
-
-  Kind kind_ = Kind::constant;
-  double scale_ = 0.0;
-  SigmoidReflectance shape_;      // sigmoid and illuminant
-  double uv_ = 0.0;               // sigmoid: level at 300 nm and below...
-  double ir_ = 0.0;               // ...and at 890 nm and above
-  double kelvin_ = 0.0;           // blackbody
-  double short_log_scale_ = 0.0;  // D65: joins its blackbody at 360 nm...
-  double long_log_scale_ = 0.0;   // ...and at 830 nm; blackbody: luminance of its reference temperature
-  std::shared_ptr<const Table> table_;
+  SpectrumForm form_;
+  std::shared_ptr<const Table> table_;  // of a tabulated one
 };
 
 struct SpectrumOrError {

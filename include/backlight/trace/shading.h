@@ -32,17 +32,16 @@ struct RayCounts {
 
 /// Working memory of one thread.
 struct Scratch {
-  Scratch(const Hub& hub, const Scene& scene, std::size_t wavelengths);
+  Scratch(const Hub& hub, const Scene& scene, std::size_t wavelengths, InstructionSet set);
 
   RayInFrames rays;
   RayCounts counts;
   std::vector<std::vector<double>> light_variables;  ///< for strengths that change with time
-  // One value a wavelength of the camera's set:
+  const SpectralKernels* kernels;   ///< for these, of one value a wavelength of the camera's set:
   std::vector<double> wavelengths;  ///< in the surface's (or sky's) frame
   std::vector<double> at_light;     ///< the same in the lamp's frame
   std::vector<double> reflectance;
-  std::vector<double> lamp;
-  std::vector<double> radiance;
+  std::vector<double> lamp;  ///< or own radiance
 };
 
 /// What the shading of one image reads.
@@ -50,6 +49,7 @@ struct ShadingContext {
   const Scene* scene = nullptr;
   const Hub* hub = nullptr;
   const RestColours* rest_colours = nullptr;
+  const WavelengthSet* wavelengths = nullptr;
 };
 
 /// Radiance towards the camera in the surface's frame, as a film colour: no colours are shifted, but the
@@ -57,9 +57,10 @@ struct ShadingContext {
 Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                      Scratch& scratch);
 
-/// The same as spectral radiance at scratch.wavelengths (of the surface's frame), into scratch.radiance.
-void shade_spectrum(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
-                    Scratch& scratch);
+/// The same with its colours shifted on the way: the film colour of the spectral radiance at
+/// scratch.wavelengths, which are those of the film in the surface's frame (docs/physics.md equation (13a)).
+LinearRgb shade_shifted(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
+                        Scratch& scratch);
 
 /// How many lights reach a seen point; that of its own is counted as one.
 int lamps_reaching(const ShadingContext& context, const SeenPoint& point, const Effects& effects,

@@ -15,13 +15,6 @@
 
 namespace backlight {
 
-/// Which instructions the kernels over sheets use. All give the same bits.
-enum class InstructionSet {
-  widest,   ///< the most lanes that this machine has
-  avx2,     ///< four lanes, where it has them
-  baseline  ///< those that every machine of its kind has
-};
-
 struct TilePixel {
   int x = 0;  ///< of the full image
   int y = 0;

@@ -11,8 +11,8 @@ namespace backlight {
 /// Radiance of the sky in its own frame along this ray, as a film colour.
 Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray);
 
-/// The same as a spectrum at scratch.wavelengths (of the sky's frame), into scratch.radiance.
-void sky_spectrum(const Sky& sky, const RestRayEvents& ray, Scratch& scratch);
+/// The film colour of the spectrum at scratch.wavelengths, which are those of the film in the sky's frame.
+LinearRgb sky_shifted(const Sky& sky, const RestRayEvents& ray, const WavelengthSet& set, Scratch& scratch);
 
 /// A star as the camera has it.
 struct StarImage {

@@ -30,7 +30,7 @@ class Tracer {
   /// The scene must outlive the tracer.
   Tracer(const Scene& scene, int wavelengths);
 
-  [[nodiscard]] Scratch make_scratch() const;
+  [[nodiscard]] Scratch make_scratch(InstructionSet set = InstructionSet::widest) const;
 
   /// Scene-linear film colour of the light along `ray`, stars apart.
   LinearRgb colour(const CameraRay& ray, const Effects& effects, Scratch& scratch) const;

@@ -78,17 +78,29 @@ TEST(WavelengthSet, PositiveRadianceHasPositiveLuminance) {
     EXPECT_GT(luminance(set.weight(i)), 0.0) << set.nm()[static_cast<std::size_t>(i)];
 }
 
+// Eight sums, added at the end, with any number of lanes and of wavelengths.
 TEST(WavelengthSet, FilmIsTheSumOfTheWeights) {
-  for (const int count : {20, 21}) {
+  for (const int count : {4, 20, 21, 24, 56}) {
     const WavelengthSet set(count);
-    std::vector<double> radiance(static_cast<std::size_t>(count));
-    LinearRgb even{0.0};
-    LinearRgb odd{0.0};
+    std::vector<double> lamp(static_cast<std::size_t>(count));
+    std::vector<double> reflectance = lamp;
+    LinearRgb one[8]{}, product[8]{};
     for (int i = 0; i < count; ++i) {
-      radiance[static_cast<std::size_t>(i)] = 0.3 + 0.1 * i;
-      (i % 2 == 0 ? even : odd) += radiance[static_cast<std::size_t>(i)] * set.weight(i);
+      const auto at = static_cast<std::size_t>(i);
+      lamp[at] = 0.3 + 0.1 * i;
+      reflectance[at] = std::exp(-0.1 * i);
+      one[i % 8] += lamp[at] * set.weight(i);
+      product[i % 8] += lamp[at] * reflectance[at] * set.weight(i);
     }
-    EXPECT_EQ(set.film(radiance.data()), even + odd);
+    const auto added = [](const LinearRgb(&s)[8]) {
+      return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+    };
+    EXPECT_EQ(set.film(lamp.data()), added(one));
+    for (const auto instructions : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::widest}) {
+      const SpectralKernels& kernels = spectral_kernels(instructions);
+      EXPECT_EQ(set.film(lamp.data(), kernels), added(one)) << kernels.name << ' ' << count;
+      EXPECT_EQ(set.film(lamp.data(), reflectance.data(), kernels), added(product)) << kernels.name;
+    }
   }
 }
 

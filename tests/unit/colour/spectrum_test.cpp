@@ -115,12 +115,21 @@ TEST(Spectrum, FiniteAndNeverNegative) {
 }
 
 TEST(Spectrum, BatchesHaveTheSameBits) {
-  std::vector<double> nm;
+  std::vector<double> nm{std::numeric_limits<double>::min(), 1e-9, 299.0, 300.0, 345.0};
   for (double at = 200.0; at < 1500.0; at *= 1.01) nm.push_back(at);
-  std::vector<double> values(nm.size());
-  for (const Spectrum& spectrum : one_of_each()) {
-    spectrum.evaluate(nm.data(), static_cast<int>(nm.size()), values.data());
-    for (std::size_t i = 0; i < nm.size(); ++i) ASSERT_EQ(values[i], spectrum.at(nm[i])) << nm[i];
+  for (double at = 360.0; at <= 830.0; at += 2.5) nm.push_back(at);  // D65's joints among them
+  nm.insert(nm.end(), {860.0, 890.0, 1e6, 1e300, std::numeric_limits<double>::max()});
+  for (const auto instructions : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::widest}) {
+    const SpectralKernels& kernels = spectral_kernels(instructions);
+    for (const Spectrum& spectrum : one_of_each()) {
+      for (std::size_t n = 1; n <= nm.size(); n = n < 17 ? n + 1 : 3 * n) {
+        std::vector<double> values(n + 1, -7.0);
+        const double* last = nm.data() + (nm.size() - n);
+        spectrum.evaluate(last, static_cast<int>(n), values.data(), kernels);
+        for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(values[i], spectrum.at(last[i])) << last[i];
+        ASSERT_EQ(values[n], -7.0) << "written past the end by " << kernels.name;
+      }
+    }
   }
 }
 

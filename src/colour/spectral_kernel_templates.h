@@ -1,0 +1,203 @@
+// The kernels of colour/spectral_kernels.h for any number of lanes. docs/colour.md has the spectra.
+#pragma once
+
+#include "backlight/base/lane_exponential.h"
+#include "backlight/colour/spectral_kernels.h"
+#include "cie_tables.h"
+#include "planck.h"
+
+namespace backlight {
+
+/// D65 from 360 to 830 nm by straight lines: value and rise over the next 5 nm; the last has none.
+struct D65Lines {
+  double line[95][2]{};
+};
+
+constexpr D65Lines make_d65_lines() {
+  D65Lines lines;
+  for (std::size_t i = 0; i < 95; ++i) {
+    lines.line[i][0] = 0.01 * cie::d65_by_5_nm[i];
+    if (i < 94) lines.line[i][1] = 0.01 * cie::d65_by_5_nm[i + 1] - lines.line[i][0];
+  }
+  return lines;
+}
+
+inline constexpr D65Lines d65_lines = make_d65_lines();
+
+/// A value and its rise for each lane.
+template <int N>
+struct LanePairs {
+  Lanes<N> value;
+  Lanes<N> rise;
+};
+
+/// table[index[i]] for each lane i: two numbers that lie side by side take one load, where a gather takes
+/// two.
+template <int N>
+BACKLIGHT_LANES LanePairs<N> load_pairs(const double (*table)[2], const long long (&index)[N]) {
+#if defined(__AVX512F__)
+  if constexpr (N == 8) {
+    const auto join = [&](int i) __attribute__((always_inline)) {
+      const __m256d low = _mm256_set_m128d(_mm_loadu_pd(table[index[i + 2]]), _mm_loadu_pd(table[index[i]]));
+      const __m256d high =
+          _mm256_set_m128d(_mm_loadu_pd(table[index[i + 6]]), _mm_loadu_pd(table[index[i + 4]]));
+      return _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+    };
+    const __m512d even = join(0), odd = join(1);
+    return {(typename Lanes<N>::Vec)_mm512_unpacklo_pd(even, odd),
+            (typename Lanes<N>::Vec)_mm512_unpackhi_pd(even, odd)};
+  }
+#endif
+#if defined(__AVX__)
+  if constexpr (N == 4) {
+    const __m256d even = _mm256_set_m128d(_mm_loadu_pd(table[index[2]]), _mm_loadu_pd(table[index[0]]));
+    const __m256d odd = _mm256_set_m128d(_mm_loadu_pd(table[index[3]]), _mm_loadu_pd(table[index[1]]));
+    return {(typename Lanes<N>::Vec)_mm256_unpacklo_pd(even, odd),
+            (typename Lanes<N>::Vec)_mm256_unpackhi_pd(even, odd)};
+  }
+#endif
+  LanePairs<N> pairs;
+  for (int i = 0; i < N; ++i) {
+    pairs.value.v[i] = table[index[i]][0];
+    pairs.rise.v[i] = table[index[i]][1];
+  }
+  return pairs;
+}
+
+template <int N>
+struct SpectralKernelsOf {
+  using V = Lanes<N>;
+  using Mask = LaneMask<N>;
+  using I = typename Mask::Vec;
+
+  static constexpr double largest = 1.7976931348623157e308;
+  static constexpr double first = cie::first_nm;
+  static constexpr double last = cie::last_nm;
+
+  static BACKLIGHT_LANES V clamped(V nm) {
+    const V above = select(nm < V(first), V(first), nm);
+    return select(V(last) < above, V(last), above);
+  }
+
+  static BACKLIGHT_LANES V sigmoid(const SpectrumForm& f, V nm) {
+    const V l = clamped(nm);
+    const V x = (V(f.c0) * l + V(f.c1)) * l + V(f.c2);
+    return V(0.5) + V(0.5) * x / sqrt(V(1.0) + x * x);
+  }
+
+  static BACKLIGHT_LANES V levelled(const SpectrumForm& f, V nm) {
+    const V inside = sigmoid(f, nm);
+    const V blend = V(1.0 / 60.0);
+    const V below = (V(first) - nm) * blend;
+    const V above = (nm - V(last)) * blend;
+    const V to_uv = select(below < V(1.0), below, V(1.0));
+    const V to_ir = select(above < V(1.0), above, V(1.0));
+    const V value = select(nm < V(first), inside + to_uv * (V(f.uv) - inside), inside);
+    return select(nm > V(last), inside + to_ir * (V(f.ir) - inside), value);
+  }
+
+  static BACKLIGHT_LANES V at_most(V value) { return select(value < V(largest), value, V(largest)); }
+
+  /// nm^-5 / (exp(x) - 1) times factor; 0 where that is below the smallest double.
+  static BACKLIGHT_LANES V planck(V nm, V x, V boltzmann, V one_less) {
+    const V nm2 = nm * nm;
+    const V value = boltzmann / (nm2 * nm2 * nm * one_less);
+    return select((boltzmann > V(0.0)) & (x > V(0.0)), at_most(value), V(0.0));
+  }
+
+  static BACKLIGHT_LANES V blackbody(const SpectrumForm& f, V nm) {
+    const V x = V(planck::second_constant_nm_kelvin) / (nm * V(f.kelvin));
+    const V boltzmann = exponential(-x - V(f.log_scale)).value();
+    return at_most(V(f.scale) * planck(nm, x, boltzmann, exponential(-x).complement()));
+  }
+
+  static BACKLIGHT_LANES V d65(const SpectrumForm& f, V nm) {
+    // The nearest whole number to half a cell before is the cell's own, or at a joint one of its neighbours'.
+    const V position = (clamped(nm) - V(first)) * V(0.2);
+    const V shifted = (position - V(0.5)) + V(0x1.8p52);
+    alignas(64) long long cell[N];
+    const I whole = (I)shifted.v - (I)V(0x1.8p52).v;
+    __builtin_memcpy(cell, &whole, sizeof cell);
+    const LanePairs<N> line = load_pairs<N>(d65_lines.line, cell);
+    const V table = line.value + (position - (shifted - V(0x1.8p52))) * line.rise;
+    const Mask inside = (nm >= V(first)) & (nm <= V(last));
+    if (bits(~inside) == 0) return table;
+    const V x = V(planck::second_constant_nm_kelvin / planck::d65_kelvin) / nm;
+    const LaneExponential<N> e = exponential(-x);
+    const V factor = select(nm < V(first), V(f.short_factor), V(f.long_factor));
+    return select(inside, table, planck(nm, x, factor * e.value(), e.complement()));
+  }
+
+  template <class F>
+  static BACKLIGHT_LANES void for_each(const double* nm, int n, double* out, const F& value_at) {
+    int i = 0;
+    for (; i + N <= n; i += N) value_at(V::load(nm + i)).store(out + i);
+    if (i >= n) return;
+    double at[N], value[N];
+    for (int k = 0; k < N; ++k) at[k] = nm[i + k < n ? i + k : n - 1];
+    value_at(V::load(at)).store(value);
+    for (int k = 0; i + k < n; ++k) out[i + k] = value[k];
+  }
+
+  static void evaluate(const SpectrumForm& f, const double* nm, int n, double* out) {
+    const V scale = f.scale;
+    switch (f.kind) {
+      case SpectrumForm::Kind::constant:
+        return for_each(nm, n, out, [&](V) { return scale; });
+      case SpectrumForm::Kind::sigmoid:
+        if (f.levelled) return for_each(nm, n, out, [&](V at) { return scale * levelled(f, at); });
+        return for_each(nm, n, out, [&](V at) { return scale * sigmoid(f, at); });
+      case SpectrumForm::Kind::d65:
+        return for_each(nm, n, out, [&](V at) { return scale * d65(f, at); });
+      case SpectrumForm::Kind::illuminant:
+        return for_each(nm, n, out, [&](V at) { return scale * (sigmoid(f, at) * d65(f, at)); });
+      case SpectrumForm::Kind::blackbody:
+        return for_each(nm, n, out, [&](V at) { return blackbody(f, at); });
+      case SpectrumForm::Kind::tabulated:
+        return;
+    }
+  }
+
+  static constexpr int block = 8;  ///< terms of which each has a sum of its own
+  static constexpr int parts = block / N;
+
+  static BACKLIGHT_LANES void add_block(const double* const (&weights)[3], const double* a, const double* b,
+                                        int at, V (&sum)[3][parts]) {
+    for (int k = 0; k < parts; ++k) {
+      V x = V::load(a + k * N);
+      if (b != nullptr) x = x * V::load(b + k * N);
+      for (int c = 0; c < 3; ++c) sum[c][k] = sum[c][k] + x * V::load(weights[c] + at + k * N);
+    }
+  }
+
+  static BACKLIGHT_LANES void fill(const double* from, int n, double (&to)[block]) {
+    for (int k = 0; k < block; ++k) to[k] = k < n ? from[k] : 0.0;
+  }
+
+  static void film(const double* const (&weights)[3], const double* a, const double* b, int n,
+                   double (&colour)[3]) {
+    V sum[3][parts];
+    for (auto& channel : sum) {
+      for (V& part : channel) part = 0.0;
+    }
+    int i = 0;
+    for (; i + block <= n; i += block) add_block(weights, a + i, b == nullptr ? b : b + i, i, sum);
+    if (i < n) {
+      double last_a[block], last_b[block], last_weight[3][block];
+      fill(a + i, n - i, last_a);
+      if (b != nullptr) fill(b + i, n - i, last_b);
+      for (int c = 0; c < 3; ++c) fill(weights[c] + i, n - i, last_weight[c]);
+      const double* const last_weights[3] = {last_weight[0], last_weight[1], last_weight[2]};
+      add_block(last_weights, last_a, b == nullptr ? b : last_b, 0, sum);
+    }
+    for (int c = 0; c < 3; ++c) {
+      double s[block];
+      for (int k = 0; k < parts; ++k) sum[c][k].store(s + k * N);
+      colour[c] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+    }
+  }
+
+  static constexpr SpectralKernels table(const char* name) { return {name, N, evaluate, film}; }
+};
+
+}  // namespace backlight
