@@ -107,6 +107,38 @@ TEST(Sheets, AreTheLawWithSpectra) {
   expect_the_law(scene_of({.spheres = 40, .gamma = 3.0, .width = 48, .height = 32}));
 }
 
+// Every kind of spectrum, on surfaces at rest and in motion; of wavelengths as many as fill registers, and
+// not.
+TEST(Sheets, AreTheLawWithAllKindsOfSpectra) {
+  const std::string more =
+      "[background]\ntemperature = 3000\nbeta = [0, 0.5, 0]\n"
+      "[[light]]\nposition = [5, 8, -6]\nintensity = 100\ntemperature = 2500\nbeta = [0.5, 0, 0.3]\n"
+      "[[light]]\nposition = [0, 8, -6]\nintensity = 100\ncolor = [1, 0.6, 0.2]\nbeta = [0, -0.4, 0.3]\n"
+      "[[light]]\ntype = \"distant\"\ndirection = [0.4, -1, 0.3]\nirradiance = 1\n"
+      "spectrum = { wavelengths = [400, 500, 640, 700], values = [1, 0.2, 0.8, 0.1] }\n"
+      "[[light]]\ntype = \"ambient\"\nradiance = 0.1\n"
+      "[[object]]\nshape = \"box\"\nsize = [2, 2, 2]\nposition = [1, 0, 3]\n"
+      "material = { checker = { colors = [[0.9, 0.1, 0.1], [0.4, 0.4, 0.4]], size = 0.5 }, specular = 0.2 }\n"
+      "[[object]]\nshape = \"sphere\"\nradius = 0.8\nposition = [-2, 0, 1]\nbeta = [0.3, 0.2, -0.6]\n"
+      "material = { color = [0.2, 0.3, 0.9], uv = 0.7, ir = 0.1, emission = 0.3, emission_color = [0.5, 0.1, "
+      "0.2] }\n"
+      "[[object]]\nshape = \"sphere\"\nradius = 0.5\nposition = [0, 0, 0]\n"
+      "material = { color = [0.1, 0.3, 0.2], temperature = 4000, emission = 0.2 }\n"
+      "[[object]]\nshape = \"sphere\"\nradius = 0.5\nposition = [2, 1, 0]\nbeta = [-0.9, 0, 0]\n"
+      "material = { spectrum = { wavelengths = [300, 500, 900], values = [0.1, 0.9, 0.2] } }\n";
+  for (const char* camera : {"", "beta = [0.1, 0.2, 0.6]\n"}) {
+    for (const char* film : {"wavelengths = 56", "wavelengths = 13"}) {
+      expect_the_law(scene_of({.spheres = 8,
+                               .gamma = 2.0,
+                               .width = 48,
+                               .height = 32,
+                               .film = film,
+                               .camera = camera,
+                               .more = more}));
+    }
+  }
+}
+
 TEST(Sheets, AreTheLawInSharedFrames) {
   for (const int frames : {1, 8}) {
     expect_the_law(scene_of({.spheres = 300, .gamma = 2.0, .frames = frames, .width = 48, .height = 32}),
