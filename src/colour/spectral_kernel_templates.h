@@ -92,8 +92,8 @@ struct SpectralKernelsOf {
     const V above = (nm - V(last)) * blend;
     const V to_uv = select(below < V(1.0), below, V(1.0));
     const V to_ir = select(above < V(1.0), above, V(1.0));
-    const V value = select(nm < V(first), inside + to_uv * (V(f.uv) - inside), inside);
-    return select(nm > V(last), inside + to_ir * (V(f.ir) - inside), value);
+    const V value = select(nm < V(first), inside + to_uv * (V(f.below) - inside), inside);
+    return select(nm > V(last), inside + to_ir * (V(f.above) - inside), value);
   }
 
   static BACKLIGHT_LANES V at_most(V value) { return select(value < V(largest), value, V(largest)); }
@@ -106,8 +106,8 @@ struct SpectralKernelsOf {
   }
 
   static BACKLIGHT_LANES V blackbody(const SpectrumForm& f, V nm) {
-    const V x = V(planck::second_constant_nm_kelvin) / (nm * V(f.kelvin));
-    const V boltzmann = exponential(-x - V(f.log_scale)).value();
+    const V x = V(planck::second_constant_nm_kelvin) / (nm * V(f.c0));
+    const V boltzmann = exponential(-x - V(f.c1)).value();
     return at_most(V(f.scale) * planck(nm, x, boltzmann, exponential(-x).complement()));
   }
 
@@ -124,7 +124,7 @@ struct SpectralKernelsOf {
     if (bits(~inside) == 0) return table;
     const V x = V(planck::second_constant_nm_kelvin / planck::d65_kelvin) / nm;
     const LaneExponential<N> e = exponential(-x);
-    const V factor = select(nm < V(first), V(f.short_factor), V(f.long_factor));
+    const V factor = select(nm < V(first), V(f.below), V(f.above));
     return select(inside, table, planck(nm, x, factor * e.value(), e.complement()));
   }
 

@@ -84,10 +84,10 @@ Spectrum Spectrum::sigmoid_reflectance(const SigmoidReflectance& shape, std::opt
   result.form_.scale = 1.0;
   result.set_shape(shape);
   const double first = shape.at(cie::first_nm), last = shape.at(cie::last_nm);
-  result.form_.uv = uv ? std::clamp(*uv, 0.0, 1.0) : first;
-  result.form_.ir = ir ? std::clamp(*ir, 0.0, 1.0) : last;
+  result.form_.below = uv ? std::clamp(*uv, 0.0, 1.0) : first;
+  result.form_.above = ir ? std::clamp(*ir, 0.0, 1.0) : last;
   // Most have no levels of their own: there, the blend would add nothing.
-  result.form_.levelled = result.form_.uv != first || result.form_.ir != last;
+  result.form_.levelled = result.form_.below != first || result.form_.above != last;
   return result;
 }
 
@@ -110,8 +110,8 @@ Spectrum Spectrum::d65() {
   static const double long_factor = d65_joint(cie::last_nm);
   result.form_.kind = Kind::d65;
   result.form_.scale = 1.0;
-  result.form_.short_factor = short_factor;
-  result.form_.long_factor = long_factor;
+  result.form_.below = short_factor;
+  result.form_.above = long_factor;
   return result;
 }
 
@@ -123,8 +123,8 @@ Spectrum Spectrum::blackbody(double kelvin, double reference_kelvin) {
   Spectrum result;
   result.form_.kind = Kind::blackbody;
   result.form_.scale = 1.0;
-  result.form_.kelvin = kelvin;
-  result.form_.log_scale = planck::log_film_luminance(reference_kelvin);
+  result.form_.c0 = kelvin;
+  result.form_.c1 = planck::log_film_luminance(reference_kelvin);
   return result;
 }
 

@@ -10,15 +10,14 @@ namespace backlight {
 struct SpectrumForm {
   enum class Kind { constant, sigmoid, d65, illuminant, blackbody, tabulated };
   Kind kind = Kind::constant;
-  double scale = 0.0;             ///< on all that follows; a constant's value
-  double c0 = 0, c1 = 0, c2 = 0;  ///< sigmoid and illuminant: those of SigmoidReflectance
-  bool levelled = false;          ///< sigmoid: it has levels of its own outside the visible range...
-  double uv = 0.0;                ///< ...at 300 nm and below
-  double ir = 0.0;                ///< ...and at 890 nm and above
-  double kelvin = 0.0;            ///< blackbody
-  double log_scale = 0.0;         ///< blackbody: logarithm of what Planck's law is divided by
-  double short_factor = 0.0;      ///< D65 and illuminant: joins the blackbody to the table at 360 nm...
-  double long_factor = 0.0;       ///< ...and at 830 nm
+  bool levelled = false;  ///< sigmoid: it has levels of its own outside the visible range
+  double scale = 0.0;     ///< on all that follows; a constant's value
+  /// Sigmoid and illuminant: as SigmoidReflectance. Blackbody: c0 the temperature in K, c1 the logarithm of
+  /// what Planck's law is divided by.
+  double c0 = 0.0, c1 = 0.0, c2 = 0.0;
+  /// Sigmoid: the level at 300 nm and below. D65 and illuminant: what joins the blackbody at 360 nm.
+  double below = 0.0;
+  double above = 0.0;  ///< the same at 890 nm and above, and at 830 nm
 };
 
 /// The kernels of one instruction set. All give the same bits.
