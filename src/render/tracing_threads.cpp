@@ -42,7 +42,8 @@ double TracingTime::lost() const {
   return all > 0.0 ? std::max(0.0, 1.0 - traced / all) : 0.0;
 }
 
-TracingThreads::TracingThreads(int threads, const std::atomic<bool>& stop) : stop_(stop) {
+TracingThreads::TracingThreads(int threads, const std::atomic<bool>& stop)
+    : stop_(stop), states_(static_cast<std::size_t>(std::max(threads, 1)), State::waits) {
   for (int i = 0; i < std::max(threads, 1); ++i) {
     try {
       threads_.emplace_back([this, i] { work(i); });
@@ -60,14 +61,23 @@ TracingThreads::~TracingThreads() {
 }
 
 void TracingThreads::begin(ImageTracing& image) {
-  const std::lock_guard lock(guard_);
-  jobs_.push_back(std::make_unique<Job>(image));
-  has_work_.notify_all();
+  append(std::make_unique<Job>(image), false);
 }
 
 void TracingThreads::go_on_with(ImageTracing& image) {
+  append(std::make_unique<Job>(image), true);
+}
+
+void TracingThreads::append(std::unique_ptr<Job> job, bool first) {
   const std::lock_guard lock(guard_);
-  jobs_.push_front(std::make_unique<Job>(image));
+  jobs_.insert(first ? jobs_.begin() : jobs_.end(), std::move(job));
+  // More threads than CPUs share some in any case.
+  for (std::size_t i = 0; i < threads_.size() && threads_.size() > 1 && threads_.size() <= spread_.cpus();
+       ++i) {
+    if (states_[i] == State::waits && spread_.place(threads_[i].native_handle(), i)) {
+      states_[i] = State::is_placed;
+    }
+  }
   has_work_.notify_all();
 }
 
@@ -114,8 +124,13 @@ void TracingThreads::work(int thread) {
   std::unique_lock lock(guard_);
   while (true) {
     Job* job = nullptr;
+    State& state = states_[static_cast<std::size_t>(thread)];
+    if (next_job() == nullptr) state = State::waits;
     has_work_.wait(lock, [&] { return (job = next_job()) != nullptr || closing_; });
     if (job == nullptr) return;
+    // If it is refused, the thread goes on working where it is.
+    if (state == State::is_placed) static_cast<void>(spread_.release());
+    state = State::works;
     ++job->threads_in_it;
     job->begin = std::min(job->begin, Clock::now());
     lock.unlock();

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "backlight/base/thread_spread.h"
 #include "backlight/render/render.h"
 
 namespace backlight {
@@ -61,12 +62,15 @@ class TracingThreads {
 
  private:
   struct Job;
+  enum class State { waits, is_placed, works };
+  void append(std::unique_ptr<Job> job, bool first);
   void work(int thread);
   Job* next_job();
   double take_tiles(Job& job, int thread);
   void look_at_tail(Job& job, Clock::time_point now);
 
   const std::atomic<bool>& stop_;
+  const ThreadSpread spread_;
   mutable std::mutex guard_;  // of all that follows
   std::condition_variable has_work_;
   std::condition_variable has_news_;
@@ -75,6 +79,7 @@ class TracingThreads {
   Clock::time_point first_begin_ = Clock::time_point::max();
   Clock::time_point last_end_ = Clock::time_point::min();
   double traced_ = 0.0;
+  std::vector<State> states_;          // by thread
   std::vector<std::jthread> threads_;  // last: they use the others
 };
 
