@@ -59,16 +59,42 @@ def on_cpus(threads):
     return ["taskset", "-c", "0"] if threads == 1 else []
 
 
+def render_command(bench, scene, *options, threads=1, size="720x526", name="picture"):
+    path = os.path.join(bench.folder, name)
+    return [BACKLIGHT, "render", scene, "-o", path + ".exr", "-q", "-r", size, "--threads", str(threads),
+            "--stats", path + ".json", *options]
+
+
+def traced_seconds(bench, name="picture"):
+    with open(os.path.join(bench.folder, name + ".json"), encoding="utf-8") as file:
+        return json.loads(file.readline())["seconds"]
+
+
 def backlight(bench, scene, *options, threads=1, size="720x526"):
     """A run of the program: seconds of tracing, and of the whole process."""
-    stats = os.path.join(bench.folder, "stats.json")
-    command = on_cpus(threads) + [BACKLIGHT, "render", scene, "-o", os.path.join(bench.folder, "picture.exr"), "-q",
-                                  "-r", size, "--threads", str(threads), "--stats", stats, *options]
+    command = on_cpus(threads) + render_command(bench, scene, *options, threads=threads, size=size)
 
     def run():
         _, whole = run_quietly(command)
-        with open(stats, encoding="utf-8") as file:
-            return json.loads(file.readline())["seconds"], whole
+        return traced_seconds(bench), whole
+
+    return run
+
+
+def two_processes(bench, scene, *options, size):
+    """Two processes of one thread at once, each on a CPU: seconds an image. What two CPUs of this machine can do,
+    whatever a program does."""
+    names = ("first", "second")
+    commands = [["taskset", "-c", str(cpu)] + render_command(bench, scene, *options, size=size, name=name)
+                for cpu, name in enumerate(names)]
+
+    def run():
+        begin = time.perf_counter()
+        children = [subprocess.Popen(command) for command in commands]
+        if any([child.wait() != 0 for child in children]):
+            sys.exit(f"bench: failed: {' '.join(commands[0])}")
+        whole = time.perf_counter() - begin
+        return sum(traced_seconds(bench, name) for name in names) / 4, whole
 
     return run
 
@@ -136,6 +162,8 @@ def subjects(bench, rows):
         for threads in (1, 2):
             bench.add(f"big, {threads} threads",
                       backlight(bench, field(bench, 200, "distinct"), *PLAIN, threads=threads, **big))
+        bench.add("big, two processes", two_processes(bench, field(bench, 200, "distinct"), *PLAIN, **big))
+        for threads in (1, 2):
             bench.add(f"POV-Ray big, {threads} threads",
                       povray(bench, field(bench, 200, "povray"), threads=threads, size=(2880, 2104)))
     if "startup" in rows:
@@ -176,6 +204,7 @@ def report(bench, rows):
         ratio("10 000 spheres beside 200", "10000 spheres moving", "200 spheres moving", "<= 10")
     if "threads" in rows:
         ratio("two threads, 2880x2104", "big, 1 threads", "big, 2 threads", ">= 1.9")
+        ratio("  two processes at once, each on its CPU", "big, 1 threads", "big, two processes", "")
         ratio("  POV-Ray's", "POV-Ray big, 1 threads", "POV-Ray big, 2 threads", "")
         ratio("  POV-Ray beside ours, two", "POV-Ray big, 2 threads", "big, 2 threads", "")
     return lines
