@@ -1,6 +1,7 @@
 #include "backlight/film/image.h"
 
 #include <ImfMultiView.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <bit>
@@ -9,6 +10,19 @@
 #include <utility>
 
 namespace backlight {
+namespace {
+
+// A block of pixels is a few bytes of each of its rows, and each of those is on a page of its own: with pages
+// of 2 MB instead of 4 kB their addresses are found without a walk through tables. Memory that was never
+// touched, of at least a few such pages; the system may refuse, and then all is as it was.
+void ask_for_large_pages(float* begin, std::size_t bytes) {
+  constexpr std::size_t page = 4096, few = std::size_t{4} << 20;
+  if (bytes < few) return;
+  const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(begin) % page) % page;
+  static_cast<void>(madvise(reinterpret_cast<char*>(begin) + before, bytes - before, MADV_HUGEPAGE));
+}
+
+}  // namespace
 
 bool fits_half(float value) {
   return !std::isfinite(value) || std::abs(value) <= greatest_half;
@@ -51,7 +65,11 @@ Image::Image(ImageLayout layout) : layout_(std::move(layout)) {
                                                   : static_cast<std::size_t>(layout_.data.width()) *
                                                         static_cast<std::size_t>(layout_.data.height());
   planes_.resize(layout_.channels.size());
-  for (std::vector<float>& plane : planes_) plane.resize(pixels);
+  for (std::vector<float>& plane : planes_) {
+    plane.reserve(pixels);
+    ask_for_large_pages(plane.data(), pixels * sizeof(float));
+    plane.resize(pixels);
+  }
 }
 
 int Image::find_channel(std::string_view name) const {
