@@ -30,7 +30,7 @@ Scene compiled(ReadResult read, const ImageRequest& request) {
 }
 
 double channel_error(double value, double reference) {
-  const double error = std::abs(shown_value(value) - shown_value(reference));
+  const double error = shown_value(value) - shown_value(reference);
   return std::isfinite(error) ? error : 1.0;
 }
 
@@ -52,37 +52,30 @@ RenderedImage render(const Scene& scene, int threads) {
   return *render_image(scene, settings, stop, nullptr);
 }
 
-ImageError error_of(const Image& image, const Image& reference, const Image& centres, double busy_above) {
+ImageError error_of(const Image& image, const Image& reference, const Image& other) {
   ImageError error;
-  double squares = 0.0, busy_squares = 0.0;
-  std::size_t busy = 0;
+  double products = 0.0;
   std::vector<double> pixels;
   const std::size_t count = image.plane(0).size();
   for (std::size_t i = 0; i < count; ++i) {
-    double square = 0.0, greatest = 0.0, at_centre = 0.0;
+    double greatest = 0.0;
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      const double exact = reference.plane(channel)[i];
-      const double off = channel_error(image.plane(channel)[i], exact);
-      square += off * off;
-      greatest = std::max(greatest, off);
-      at_centre = std::max(at_centre, channel_error(centres.plane(channel)[i], exact));
+      const double off = channel_error(image.plane(channel)[i], reference.plane(channel)[i]);
+      const double other_off = channel_error(image.plane(channel)[i], other.plane(channel)[i]);
+      products += off * other_off;
+      greatest = std::max(greatest, 0.5 * std::abs(off + other_off));
     }
-    squares += square;
     pixels.push_back(greatest);
-    if (at_centre <= busy_above) continue;
-    busy_squares += square;
-    ++busy;
   }
   std::ranges::sort(pixels);
-  error.rms = std::sqrt(squares / (3.0 * double(count)));
-  error.busy_rms = busy > 0 ? std::sqrt(busy_squares / (3.0 * double(busy))) : 0.0;
+  error.rms = std::sqrt(std::max(0.0, products) / (3.0 * double(count)));
   error.percentile99 = pixels[(pixels.size() - 1) * 99 / 100];
   error.worst = pixels.back();
   return error;
 }
 
 ImageError error_of(const Image& image, const Image& reference) {
-  return error_of(image, reference, image, 0.0);
+  return error_of(image, reference, reference);
 }
 
 double cpu_seconds() {

@@ -22,15 +22,17 @@ Scene load_text(const std::string& text, const ImageRequest& request = {});
 /// The image, with the wavelengths that the scene needs.
 RenderedImage render(const Scene& scene, int threads = 1);
 
-/// Of an image against a finer one, on the scale of shown_value(): 1 is from black to white. NaN counts as 1.
+/// Of an image against another, on the scale of shown_value(): 1 is from black to white. NaN counts as 1.
 struct ImageError {
-  double rms = 0.0;       ///< over all pixels and channels
-  double busy_rms = 0.0;  ///< over the pixels that one sample in the centre does not get right
-  double percentile99 = 0.0;
-  double worst = 0.0;  ///< of any pixel and channel
+  double rms = 0.0;           ///< over all pixels and channels
+  double percentile99 = 0.0;  ///< of the pixels' worst channel
+  double worst = 0.0;         ///< of any pixel and channel
 };
-ImageError error_of(const Image& image, const Image& reference, const Image& centres, double busy_above);
 ImageError error_of(const Image& image, const Image& reference);
+
+/// The same against two references whose own errors have nothing to do with one another: these are not in
+/// `rms`, the square of which is the mean of the products of the differences from one and the other.
+ImageError error_of(const Image& image, const Image& reference, const Image& other);
 
 /// User CPU seconds of this process.
 double cpu_seconds();

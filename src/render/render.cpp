@@ -15,7 +15,7 @@ namespace {
 constexpr int largest_tile = 32;
 // Tiles get smaller with the number of samples: a tile is put aside as a whole.
 int tile_size_of(const Scene& scene) {
-  if (scene.film.adaptive) return 16;
+  if (scene.film.adaptive) return 24;
   return scene.film.samples <= 16 ? largest_tile : scene.film.samples <= 64 ? 16 : block_size;
 }
 
@@ -97,6 +97,9 @@ struct ImageTracing::Parts {
     views = views_of(tracer, in_use, settings, partial);
     for (int i = 0; i < std::max(1, settings.threads); ++i)
       memories.emplace_back(tracer, in_use, settings.instructions);
+    if (!scene.film.adaptive) return;
+    plan = views.front().plan(memories.front());
+    for (ThreadMemory& memory : memories) memory.sampler.emplace(plan);
   }
 
   const RenderSettings settings;
@@ -107,6 +110,7 @@ struct ImageTracing::Parts {
   std::optional<SheetTracer> sheets;
   std::vector<ViewRenderer> views;
   std::vector<ThreadMemory> memories;
+  SamplingPlan plan;  // where a tolerance is asked for; one for both eyes
 };
 
 ImageTracing::ImageTracing(const Scene& scene, const RenderSettings& settings, PartialImage& partial,

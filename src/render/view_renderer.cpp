@@ -73,19 +73,19 @@ void ViewRenderer::write_colours(ThreadMemory& m) {
 }
 
 void ViewRenderer::tile(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& memory) {
+  if (memory.sampler) {
+    tile_to_tolerance(box, stop, memory);
+    return;
+  }
   if (sheets_ != nullptr) {
     try {
-      memory.sampler ? tile_to_tolerance(box, stop, memory) : tile_in_sheets(box, stop, memory);
+      tile_in_sheets(box, stop, memory);
       return;
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception&) {
       // One by one, below, it turns out which pixel it was.
     }
-  }
-  if (memory.sampler) {
-    tile_to_tolerance(box, stop, memory);
-    return;
   }
   for (int y = box.y0; y < box.y1; ++y) {
     for (int x = box.x0; x < box.x1; ++x) {
@@ -99,34 +99,45 @@ void ViewRenderer::tile(const PixelBox& box, const std::atomic<bool>& stop, Thre
 void ViewRenderer::tile_to_tolerance(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {
   list_missing(box, m.missing);
   if (m.missing.pixels.empty()) return;
-  const auto trace = [&](std::span<const TilePixel> pixels, int index, std::vector<PixelSample>& samples) {
+  const auto trace = [&](std::span<const ImagePoint> points, std::vector<PixelSample>& samples) {
     if (stop.load(std::memory_order_relaxed)) return false;
-    trace_samples(pixels, index, m, samples);
+    trace_points(points, m, samples);
     return true;
   };
-  if (!m.sampler->tile(box, m.missing.pixels, trace)) return;
+  if (!m.sampler->tile(box, m.missing.pixels, small_things_, trace)) return;
   write_all(m, nullptr, [&](std::size_t k) { return m.sampler->estimates()[k]; });
 }
 
-void ViewRenderer::trace_samples(std::span<const TilePixel> pixels, int index, ThreadMemory& m,
-                                 std::vector<PixelSample>& samples) const {
-  const Scene& scene = tracer_.scene();
-  samples.assign(pixels.size(), {});
+SamplingPlan ViewRenderer::plan(ThreadMemory& memory) const {
+  const FilmSettings& film = tracer_.scene().film;
+  const auto trace = [&](std::span<const ImagePoint> points, std::vector<PixelSample>& samples) {
+    trace_points(points, memory, samples);
+    return true;
+  };
+  return make_plan(film.tolerance, {0, 0, film.width, film.height}, {film.seed, settings_.image_number},
+                   small_things_, trace);
+}
+
+void ViewRenderer::trace_points(std::span<const ImagePoint> points, ThreadMemory& m,
+                                std::vector<PixelSample>& samples) const {
+  samples.assign(points.size(), {});
   if (sheets_ != nullptr) {
-    sheets_->trace(pixels, settings_.image_number, index, eye_, false, *m.sheet, m.scratch, m.light);
-  }
-  for (std::size_t k = 0; k < pixels.size(); ++k) {
-    const auto [x, y] = pixels[k];
-    const ImagePoint point =
-        sample_point({scene.film.seed, settings_.image_number, x, y}, index, scene.film.samples);
-    samples[k].x = point.x - x;
-    samples[k].y = point.y - y;
-    if (sheets_ == nullptr) {
-      at_pixel(x, y, [&] { trace_point(point, m.scratch, samples[k]); });
-    } else if (m.light.covered[k] != 0) {
-      samples[k].covered = true;
-      samples[k].colour = m.light.colour(k);
+    try {
+      sheets_->trace(points, eye_, *m.sheet, m.scratch, m.light);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        if (m.light.covered[k] != 0) samples[k] = {m.light.colour(k), true};
+      }
+      return;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception&) {
+      // One by one, below, it turns out which pixel it was.
     }
+  }
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const ImagePoint& point = points[k];
+    at_pixel(static_cast<int>(point.x), static_cast<int>(point.y),
+             [&] { trace_point(point, m.scratch, samples[k]); });
   }
 }
 

@@ -22,8 +22,6 @@ struct ThreadMemory {
   ThreadMemory(const Tracer& tracer, const SheetTracer* sheets, InstructionSet set)
       : scratch(tracer.make_scratch(set)), sheet(nullptr, nullptr) {
     if (sheets != nullptr) sheet = sheets->make_scratch();
-    const FilmSettings& film = tracer.scene().film;
-    if (film.adaptive) sampler.emplace(film.tolerance, PixelBox{0, 0, film.width, film.height});
   }
 
   Scratch scratch;
@@ -50,7 +48,12 @@ class ViewRenderer {
         has_data_(has_data_channels(tracer.scene())),
         writer_(tracer.scene(), partial.image, view),
         image_(partial.image),
-        done_(partial.done[view]) {}
+        done_(partial.done[view]) {
+    if (tracer.scene().film.adaptive) small_things_ = small_things(tracer.scene(), tracer.hub(), eye);
+  }
+
+  // How the pixels get their samples where a tolerance is asked for. Takes what it needs to know: rays.
+  SamplingPlan plan(ThreadMemory& memory) const;
 
   // Traces what is missing of a tile; gives up between two pixels, or two samples of the tile, when `stop`
   // turns true and the tile is not about to be done: one of many samples may take minutes.
@@ -72,8 +75,8 @@ class ViewRenderer {
   // As many samples of each missing pixel as it needs.
   void tile_to_tolerance(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m);
 
-  void trace_samples(std::span<const TilePixel> pixels, int index, ThreadMemory& m,
-                     std::vector<PixelSample>& samples) const;
+  void trace_points(std::span<const ImagePoint> points, ThreadMemory& m,
+                    std::vector<PixelSample>& samples) const;
 
   void trace_point(const ImagePoint& point, Scratch& scratch, PixelSample& sample) const;
 
@@ -106,6 +109,7 @@ class ViewRenderer {
   PixelWriter writer_;
   const Image& image_;
   std::vector<std::uint8_t>& done_;
+  std::vector<SmallThing> small_things_;  // where the number of samples is chosen
 };
 
 }  // namespace backlight

@@ -35,12 +35,8 @@ class SheetMaker {
 
   // The sheets' order is that of the pixels, and does not change a bit.
   void make(std::span<const TilePixel> pixels, std::int64_t image_number, int sample) {
-    used_ = 0;
-    const std::size_t most = (pixels.size() / sheet_size + 1) * (scene_.regions.size() + 1);
-    if (work_.sheet_memory.size() < most) work_.sheet_memory.resize(most);
     const int samples = scene_.film.samples;
-    for (std::size_t begin = 0; begin < pixels.size(); begin += sheet_size) {
-      count_ = static_cast<int>(std::min<std::size_t>(sheet_size, pixels.size() - begin));
+    make(pixels.size(), [&](std::size_t begin) {
       const TilePixel* const of = pixels.data() + begin;
       for (int i = 0; i < count_ && samples == 1; ++i) {  // their centres, in vectors of the compiler's
         x_[i] = of[i].x + 0.5;
@@ -52,12 +48,33 @@ class SheetMaker {
         x_[i] = point.x;
         y_[i] = point.y;
       }
+    });
+  }
+
+  void make(std::span<const ImagePoint> points) {
+    make(points.size(), [&](std::size_t begin) {
+      for (int i = 0; i < count_; ++i) {
+        x_[i] = points[begin + static_cast<std::size_t>(i)].x;
+        y_[i] = points[begin + static_cast<std::size_t>(i)].y;
+      }
+    });
+  }
+
+ private:
+  // `fill(begin)` writes the next count_ points.
+  template <class Fill>
+  void make(std::size_t points, const Fill& fill) {
+    used_ = 0;
+    const std::size_t most = (points / sheet_size + 1) * (scene_.regions.size() + 1);
+    if (work_.sheet_memory.size() < most) work_.sheet_memory.resize(most);
+    for (std::size_t begin = 0; begin < points; begin += sheet_size) {
+      count_ = static_cast<int>(std::min<std::size_t>(sheet_size, points - begin));
+      fill(begin);
       add_sheets(static_cast<int>(begin));
     }
     work_.sheets = {work_.sheet_memory.data(), used_};
   }
 
- private:
   // One sheet for each of the effects in force among the points.
   void add_sheets(int first_place) {
     TileSheet& sheet = work_.sheet_memory[used_];
@@ -517,15 +534,26 @@ std::unique_ptr<SheetScratch, void (*)(SheetScratch*)> SheetTracer::make_scratch
 
 void SheetTracer::trace(std::span<const TilePixel> pixels, std::int64_t image_number, int sample, int eye,
                         bool records, SheetScratch& work, Scratch& scratch, TileLight& light) const {
-  light.record.assign(records ? pixels.size() : 0, SurfaceRecord{});
   SheetMaker(tracer_->scene(), scene_->kernels(), work).make(pixels, image_number, sample);
+  trace_sheets(pixels.size(), eye, records, work, scratch, light);
+}
+
+void SheetTracer::trace(std::span<const ImagePoint> points, int eye, SheetScratch& work, Scratch& scratch,
+                        TileLight& light) const {
+  SheetMaker(tracer_->scene(), scene_->kernels(), work).make(points);
+  trace_sheets(points.size(), eye, false, work, scratch, light);
+}
+
+void SheetTracer::trace_sheets(std::size_t count, int eye, bool records, SheetScratch& work, Scratch& scratch,
+                               TileLight& light) const {
+  light.record.assign(records ? count : 0, SurfaceRecord{});
   std::size_t rays = 0;
   for (const auto& sheet : work.sheets) rays += static_cast<std::size_t>(sheet.rays.count);
   scratch.counts.primary += rays;
-  const bool all_shown = rays == pixels.size();
-  light.covered.assign(pixels.size(), all_shown ? 1 : 0);
+  const bool all_shown = rays == count;
+  light.covered.assign(count, all_shown ? 1 : 0);
   for (std::vector<double>& channel : light.rgb) {
-    channel.resize(pixels.size());
+    channel.resize(count);
     if (!all_shown) std::ranges::fill(channel, 0.0);
   }
   if (rays == 0) return;

@@ -77,14 +77,18 @@ TEST(SameBits, ForAnyCrop) {
   }
 }
 
-// Where each pixel chooses its samples, by what its neighbours show.
+// Where each pixel chooses its samples, by what its neighbours show, and by what is smaller than it.
 TEST(SameBits, WhereTheToleranceChoosesTheSamples) {
   const std::vector<std::string> tolerance = {"film.tolerance=0.02"};
   std::string text = scene("stereo = { separation = 0.1 }\n");
   text.erase(text.find("samples = 3\n"), 12);
+  text +=
+      "[[object]]\nshape = \"sphere\"\nradius = 0.02\nposition = [-1.4, 0.9, 1]\nbeta = [0, 0.4, 0]\n"
+      "material = { emission = 200 }\n";
   const Rendering whole = render_text(text, {.threads = 1, .overrides = tolerance});
   ASSERT_GT(whole.statistics.samples.most, whole.statistics.samples.least);
   expect_equal_bits(whole, render_text(text, {.threads = 5, .overrides = tolerance}));
+  expect_equal_bits(whole, render_text(text, {.overrides = tolerance, .path = RayPath::one_by_one}));
   for (const PixelBox crop : {PixelBox{0, 0, 1, 1}, PixelBox{17, 5, 60, 40}, PixelBox{74, 52, 75, 53}}) {
     expect_equal_bits(whole, render_text(text, {.crop = crop, .overrides = tolerance}));
   }

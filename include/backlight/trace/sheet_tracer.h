@@ -56,6 +56,10 @@ class SheetTracer {
   void trace(std::span<const TilePixel> pixels, std::int64_t image_number, int sample, int eye, bool records,
              SheetScratch& sheets, Scratch& scratch, TileLight& light) const;
 
+  /// The light through any points of the image, neighbours next to one another, into `light`, in order.
+  void trace(std::span<const ImagePoint> points, int eye, SheetScratch& sheets, Scratch& scratch,
+             TileLight& light) const;
+
   /// How the rays of this image are spared most of its surfaces.
   [[nodiscard]] TraceStrategy strategy() const;
 
@@ -63,6 +67,9 @@ class SheetTracer {
   [[nodiscard]] const char* instructions() const;
 
  private:
+  void trace_sheets(std::size_t count, int eye, bool records, SheetScratch& sheets, Scratch& scratch,
+                    TileLight& light) const;
+
   const Tracer* tracer_;
   std::unique_ptr<const SheetScene> scene_;
 };
