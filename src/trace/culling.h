@@ -18,4 +18,8 @@ inline constexpr std::size_t camera_tree_from = 8;
 /// what may shade anything of it.
 inline constexpr std::size_t tile_list_from = 48;
 
+/// From so many on, the shadow rays of a tile are sorted into packets, each with a list of its own. (Their
+/// points are found twice for it: some 4 ms of an image of 720x526.)
+inline constexpr std::size_t packets_from = 1500;
+
 }  // namespace backlight

@@ -64,13 +64,14 @@ struct LaneCone {
   double level = 0;  ///< h, lowered by the bound on its rounding; -infinity: every direction
 };
 
-/// Many of them, as arrays. `radius` is that of the sphere behind the cone.
+/// Many of them, as arrays with room for a register behind the last. `radius` is that of the sphere behind
+/// the cone.
 struct ConeTable {
   int count = 0;
   double* axis[3]{};
   double* level = nullptr;
   double* radius = nullptr;
-  int* who = nullptr;
+  double* who = nullptr;  ///< an index, exact as a double
 };
 
 /// A bundle of directions from one event: a cone around `axis`.
@@ -83,8 +84,8 @@ struct Bundle {
   double reach = __builtin_inf();  ///< the longest way of that light
 };
 
-/// Occluders as a light has them: each one's motion relative to the light, and where the light is in its
-/// frame.
+/// Occluders as a light has them, as arrays with room for a register behind the last: each one's motion
+/// relative to the light, and where the light is in its frame.
 struct LampTable {
   int count = 0;
   bool moving = true;     ///< false: every w is 0
@@ -95,7 +96,15 @@ struct LampTable {
   double* place[3]{};       ///< x₀: the light relative to the occluder's centre, axes turned to the light's
   double* radius = nullptr;
   double* core = nullptr;  ///< of a ball all of which is opaque: it surely shades; <= 0: none
-  int* who = nullptr;
+  double* who = nullptr;   ///< an index, exact as a double
+};
+
+/// The light of one lamp on its way to some points, in the lamp's frame.
+struct LightRays {
+  const double* way[3];      ///< K, from the point to the light
+  const double* way_length;  ///< |K|
+  const double* time;        ///< of emission, from the camera event's
+  double* lit;               ///< 1 or 0
 };
 
 /// Points of one surface, with what each kernel adds to them.
@@ -143,6 +152,10 @@ struct PointSheet {
   alignas(64) double specular[sheet_size];
   alignas(64) double diffuse[3][sheet_size];  ///< film colour under this lamp
   alignas(64) double rgb[3][sheet_size];
+
+  [[nodiscard]] LightRays light_rays() {
+    return {{way[0], way[1], way[2]}, way_length, relative_emission_time, lit};
+  }
 };
 
 /// Factors of the searchlight effect, as plain numbers: BrightnessSwitches.
@@ -221,13 +234,12 @@ struct SheetKernels {
   /// What follows from points however found: `to_camera`, proper time, D, and the normal's side.
   void (*face)(const LaneFrame& frame, const double* error_bound, PointSheet& points);
   void (*arrive)(const LaneLamp& lamp, PointSheet& points);
-  /// The bundle of light that reaches the lit points from `first` to `last` (whole registers); false when
-  /// there are none.
-  bool (*light_bundle)(const PointSheet& points, int first, int last, Bundle& bundle);
-  /// Unlights the points from `first` to `last` that occluder `which` of the table surely shades: `time` is
-  /// amid their emission times. Bits: the points of which that is not clear.
+  /// The bundle of the lit rays from `first` to `last` (whole registers); false when there are none.
+  bool (*light_bundle)(const LightRays& rays, int first, int last, Bundle& bundle);
+  /// Unlights those from `first` to `last` that occluder `which` of the table surely shades: `time` is
+  /// amid their emission times. Bits, from the lowest for number 0: those of which that is not clear.
   std::uint64_t (*sift)(const LampTable& occluders, int which, double time, int first, int last,
-                        PointSheet& points);
+                        const LightRays& rays);
   /// The lit points at which the normal on the side that is seen points to `centre`, one bit each.
   std::uint64_t (*inward)(const double (&centre)[3], const PointSheet& points);
   /// Unlights those of the candidates that the occluder (sphere or plane) shades; for any other surface, sets

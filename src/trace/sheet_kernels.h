@@ -127,14 +127,13 @@ struct KernelsOf {
       const Mask meets = (along >= level * V(b.cosine) - radius * V(b.sine)) |
                          (level * V(b.sine) + radius * V(b.cosine) <= V(0.0));
       const unsigned hit = bits(meets) & (from.count - i < N ? (1U << (from.count - i)) - 1U : ~0U);
-      for (unsigned left = hit; left != 0; left &= left - 1) {
-        const int k = i + __builtin_ctz(left);
-        const int j = to.count++;
-        for (int a = 0; a < 3; ++a) to.axis[a][j] = from.axis[a][k];
-        to.level[j] = from.level[k];
-        to.radius[j] = from.radius[k];
-        to.who[j] = from.who[k];
-      }
+      if (hit == 0) continue;
+      const int j = to.count;
+      for (int a = 0; a < 3; ++a) store_kept(V::load(from.axis[a] + i), hit, to.axis[a] + j);
+      store_kept(level, hit, to.level + j);
+      store_kept(radius, hit, to.radius + j);
+      store_kept(V::load(from.who + i), hit, to.who + j);
+      to.count += __builtin_popcount(hit);
     }
   }
 
@@ -175,7 +174,8 @@ struct KernelsOf {
     const V one = V(1.0), zero = V(0.0), tau = b.half_time;
     V3 x{V::load(table.place[0] + i), V::load(table.place[1] + i), V::load(table.place[2] + i)}, w;
     const V radius = V::load(table.radius + i);
-    V gamma = one, turn = V(0.5), speed = zero, d = one, spread = zero, least = one, inverse = one, xk = zero;
+    V gamma = one, turn = V(0.5), speed = zero, d = one, spread = zero, inverse = one, inverse_least = one,
+      xk = zero;
     if (moving) {
       w = {V::load(table.celerity[0] + i), V::load(table.celerity[1] + i), V::load(table.celerity[2] + i)};
       gamma = V::load(table.gamma + i);
@@ -185,30 +185,35 @@ struct KernelsOf {
       const V wa = dot(w, b.axis);
       d = gamma - wa;
       spread = speed * b.angle;
-      const V slowest = one / (gamma + speed);
-      least = select(d - spread > slowest, d - spread, slowest);
+      const V slowest = V(0.5) * turn;  // 1/2(γ+1) <= 1/(γ+|w|)
+      inverse_least = one / select(d - spread > slowest, d - spread, slowest);
       inverse = one / d;
       xk = wa * turn - one;
     }
     // What rounding makes of lengths in the occluder's frame.
     const V extent = size_of(x.x) + size_of(x.y) + size_of(x.z) + (moving ? tau * gamma : zero);
-    const V noise = V(4e-15) * (moving ? gamma / least : one) * extent;
-    // Where the occluder is along the axis and across it, and how the lamp moves.
+    const V noise = V(4e-15) * (moving ? gamma * inverse_least : one) * extent;
+    // Where the occluder is along the axis and across it, how the lamp moves, and the least of the quadratic
+    // function of its moment that is negative where they meet.
     const V xw = moving ? dot(x, w) : zero, square = dot(x, x);
     const V ahead = -(dot(x, b.axis) + (moving ? xk * xw : zero)) * inverse;
-    V miss = square - ahead * ahead, shift = zero;
+    const V angle = moving ? b.angle * inverse_least : b.angle;
+    const V cosine = one - V(0.5) * angle * angle, cosine_square = cosine * cosine;
+    const V reach = radius * (one + angle) + noise + angle * ahead;
+    V miss = cosine_square * (square - ahead * ahead) - reach * reach, shift = zero;
+    V room = V(10.0) * noise * (extent + radius);
     if (moving) {
-      const V moved = inverse - gamma, moved_square = speed * speed - moved * moved;
-      const V both = size_of(xw + ahead * moved);
-      const V nearest = select(both < tau * moved_square, both / moved_square, tau);
-      miss = miss - nearest * (V(2.0) * both - nearest * moved_square);
+      const V moved = inverse - gamma, turned = angle * moved;
+      const V curve = cosine_square * (speed * speed - moved * moved) - turned * turned;
+      const V slope = size_of(cosine_square * (xw + ahead * moved) + turned * reach);
+      // Within the moments at -slope/curve, of which no quotient is made, or else at one end.
+      const Mask within = slope < tau * curve;
+      miss = select(within, miss * curve - slope * slope, miss - tau * (V(2.0) * slope - tau * curve));
+      room = select(within, room * curve, room);
       shift = tau * size_of(moved);
     }
     const V farthest = ahead + shift + noise;
-    const V angle = moving ? b.angle / least : b.angle;
-    const V reach = radius + select(farthest > zero, farthest, zero) * angle + noise;
-    const V cosine = one - V(0.5) * angle * angle;
-    const Mask aside = miss * cosine * cosine > reach * reach + V(10.0) * noise * extent;
+    const Mask aside = miss > room;
     const Mask behind = farthest < -radius;
     const Mask beyond = ahead - shift - noise - radius > b.reach * (d + spread);
     const Mask narrow = angle < V(0.5);
@@ -226,20 +231,19 @@ struct KernelsOf {
       const unsigned all = from.count - i < N ? (1U << (from.count - i)) - 1U : ~0U;
       const unsigned hit =
           bits(from.moving ? may_shade<true>(from, b, i) : may_shade<false>(from, b, i)) & all;
-      for (unsigned left = hit; left != 0; left &= left - 1) {
-        const int k = i + __builtin_ctz(left);
-        const int j = to.count++;
-        to.who[j] = from.who[k];
-        for (int a = 0; a < 3; ++a) {
-          to.celerity[a][j] = from.celerity[a][k];
-          to.place[a][j] = from.place[a][k];
-        }
-        to.gamma[j] = from.gamma[k];
-        to.inverse_gamma_plus_one[j] = from.inverse_gamma_plus_one[k];
-        to.speed[j] = from.speed[k];
-        to.radius[j] = from.radius[k];
-        to.core[j] = from.core[k];
+      if (hit == 0) continue;
+      const int j = to.count;
+      for (int a = 0; a < 3; ++a) {
+        store_kept(V::load(from.celerity[a] + i), hit, to.celerity[a] + j);
+        store_kept(V::load(from.place[a] + i), hit, to.place[a] + j);
       }
+      store_kept(V::load(from.gamma + i), hit, to.gamma + j);
+      store_kept(V::load(from.inverse_gamma_plus_one + i), hit, to.inverse_gamma_plus_one + j);
+      store_kept(V::load(from.speed + i), hit, to.speed + j);
+      store_kept(V::load(from.radius + i), hit, to.radius + j);
+      store_kept(V::load(from.core + i), hit, to.core + j);
+      store_kept(V::load(from.who + i), hit, to.who + j);
+      to.count += __builtin_popcount(hit);
     }
   }
 
@@ -248,7 +252,7 @@ struct KernelsOf {
   // ball is a question of signs; the margins are some hundred times the rounding at γ = 30, here and where
   // the law asks the same: what lies within them is left to the law.
   static std::uint64_t sift(const LampTable& table, int which, double time, int first, int last,
-                            PointSheet& p) {
+                            const LightRays& p) {
     const double w0 = table.celerity[0][which], w1 = table.celerity[1][which], w2 = table.celerity[2][which];
     const double x0 = table.place[0][which] - time * w0, x1 = table.place[1][which] - time * w1,
                  x2 = table.place[2][which] - time * w2;
@@ -263,17 +267,19 @@ struct KernelsOf {
       if (bits(open) == 0) continue;
       const V3 way = load3<V>(p.way, i);
       const V size = V::load(p.way_length + i);
-      const V later = V::load(p.relative_emission_time + i) - V(time);
+      const V later = V::load(p.time + i) - V(time);
       const V s = -dot(w, way);
       const V d = V(gamma) * size - s;
       const V square = d * d;
-      const V distance = from_square - later * (V(2.0) * along - later * speed_square);
-      const V b = (later * -s - dot(x, way)) + (s * turn - size) * (along - later * speed_square);
+      const V moved = later * speed_square;
+      const V distance = from_square - later * (V(2.0) * along - moved);
+      const V terms = from_square + later * moved;  // of which rays may leave little
+      const V b = (later * -s - dot(x, way)) + (s * turn - size) * (along - moved);
       const V room = V(1e-12 * gamma) * size;
       const V outer = V(table.radius[which]) + room, core = V(table.core[which]) - room;
-      const V noise = V(1e-11) * (distance + square);
+      const V noise = V(1e-11) * (terms + square);
       const V miss = square * distance - b * b;  // of the centre, squared, times the squared length
-      const V loose = V(1e-11) * square * distance;
+      const V loose = V(1e-11) * square * terms;
       const Mask aside = miss > square * outer * outer + loose;
       const Mask lamp_outside = distance > outer * outer + noise;
       const V end = distance + V(2.0) * b + square;
@@ -450,7 +456,7 @@ struct KernelsOf {
     for (int i = p.count; i < p.padded; ++i) p.lit[i] = 0.0;
   }
 
-  static bool light_bundle(const PointSheet& p, int begin_at, int end_at, Bundle& bundle) {
+  static bool light_bundle(const LightRays& p, int begin_at, int end_at, Bundle& bundle) {
     V3 sum{V(0.0), V(0.0), V(0.0)};
     V first = __builtin_inf(), last = -__builtin_inf(), reach = 0.0;
     bool any = false;
@@ -462,7 +468,7 @@ struct KernelsOf {
       const V share = select(lit, V(-1.0) / size, V(0.0));
       reach = select(lit & ~(size <= reach), size, reach);
       sum = sum + share * load3<V>(p.way, i);
-      const V time = V::load(p.relative_emission_time + i);
+      const V time = V::load(p.time + i);
       first = select(lit & (time < first), time, first);
       last = select(lit & (time > last), time, last);
     }

@@ -29,27 +29,24 @@ BoundingSphere bounds_of(const Occupant& occupant, const SurfaceSet& surfaces) {
 
 void ConeStore::resize(std::size_t count) {
   const std::size_t column = padded(count);
-  numbers_ = std::make_unique_for_overwrite<double[]>(5 * column);
-  who_ = std::make_unique_for_overwrite<int[]>(column);
+  numbers_ = std::make_unique_for_overwrite<double[]>(6 * column);
   for (std::size_t i = 0; i < 3; ++i) table_.axis[i] = numbers_.get() + i * column;
   table_.level = numbers_.get() + 3 * column;
   table_.radius = numbers_.get() + 4 * column;
-  table_.who = who_.get();
+  table_.who = numbers_.get() + 5 * column;
   table_.count = static_cast<int>(count);
 }
 
 void LampStore::resize(std::size_t count) {
   const std::size_t column = padded(count);
-  numbers_ = std::make_unique_for_overwrite<double[]>(11 * column);
-  who_ = std::make_unique_for_overwrite<int[]>(column);
+  numbers_ = std::make_unique_for_overwrite<double[]>(12 * column);
   double* next = numbers_.get();
   for (double** start : {&table_.celerity[0], &table_.celerity[1], &table_.celerity[2], &table_.gamma,
                          &table_.inverse_gamma_plus_one, &table_.speed, &table_.place[0], &table_.place[1],
-                         &table_.place[2], &table_.radius, &table_.core}) {
+                         &table_.place[2], &table_.radius, &table_.core, &table_.who}) {
     *start = next;
     next += column;
   }
-  table_.who = who_.get();
   table_.count = static_cast<int>(count);
 }
 
@@ -105,8 +102,10 @@ void SheetScene::list_occupants(const Hub& hub) {
     for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {
       lanes_.push_back(surfaces.lane_surface(s));
       const bool bounded = std::isfinite(surfaces.bounds(s).radius);
-      occupants_.push_back({frame, s, &lanes_.back(), 0, camera_tree && bounded});
-      if (!(light_tree && bounded)) occluders_.push_back({frame, s, &lanes_.back()});
+      const bool own_occluder = !(light_tree && bounded);
+      const int occluder = own_occluder ? static_cast<int>(occluders_.size()) : -1;
+      occupants_.push_back({frame, s, &lanes_.back(), 0, camera_tree && bounded, occluder});
+      if (own_occluder) occluders_.push_back({frame, s, &lanes_.back()});
     }
   }
   occupants_.insert(occupants_.end(), trees.begin(), trees.end());
@@ -151,7 +150,7 @@ EyeView SheetScene::view_of(const Scene& scene, const Hub& hub, int eye) const {
       for (int k = 0; k < 3; ++k) table.axis[k][row] = cone.axis[k];
       table.level[row] = cone.level;
       table.radius[row] = radius;
-      table.who[row] = static_cast<int>(i);
+      table.who[row] = static_cast<double>(i);
     }
   }
   return result;
@@ -199,7 +198,7 @@ LampView SheetScene::view_of(const Scene& scene, const Hub& hub, std::size_t lig
     table.radius[j] = sphere.radius * (1.0 + 1e-11) + room;
     const bool is_ball = occluder.lanes->kind == LaneSurface::Kind::sphere && occluder.lanes->aligned;
     table.core[j] = is_ball && !motion.is_robust() ? sphere.radius * (1.0 - 1e-11) - room : 0.0;
-    table.who[j] = static_cast<int>(i);
+    table.who[j] = static_cast<double>(i);
   }
   return result;
 }

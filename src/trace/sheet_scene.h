@@ -22,7 +22,6 @@ class ConeStore {
   ConeTable table_;
   // Not touched before it is used: of a large scene's lists most threads use a small part.
   std::unique_ptr<double[]> numbers_;
-  std::unique_ptr<int[]> who_;
 };
 
 /// A LampTable with its memory.
@@ -36,7 +35,6 @@ class LampStore {
   LampTable table_;
   // Not touched before it is used: of a large scene's lists most threads use a small part.
   std::unique_ptr<double[]> numbers_;
-  std::unique_ptr<int[]> who_;
 };
 
 /// Something that a ray may meet: a surface, or many of a frame by SurfaceSet's own search.
@@ -49,6 +47,7 @@ struct Occupant {
   const LaneSurface* lanes = nullptr;  ///< of kind `other` where one ray goes at a time
   int first = 0;                       ///< of all_bounded: the occupant that the frame's surface 0 is
   bool in_tree = false;                ///< of a surface: found by the search of all_bounded alone
+  int occluder = -1;  ///< of a surface: its index among the occluders, if it has one of its own
 };
 
 /// The view of one eye.

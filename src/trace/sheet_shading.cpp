@@ -20,6 +20,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int few_occluders = 4;
 // ...as many points have a list of their own.
 constexpr int few = 16;
+// How often packets of shadow rays are divided.
+constexpr std::size_t packet_levels = 7;
 
 Vec3 vec(const double (&from)[3][sheet_size], int lane) {
   return {from[0][lane], from[1][lane], from[2][lane]};
@@ -45,10 +47,12 @@ LaneBrightness lane_brightness(const BrightnessSwitches& on) {
 }
 
 SheetScratch::SheetScratch(const SheetScene& scene, std::size_t lights)
-    : tile_lamps(lights), group_of(scene.occupants().size(), -1) {
+    : tile_lamps(lights), packets(lights), group_of(scene.occupants().size(), -1) {
   tile_cones.resize(scene.occupants().size());
   sheet_cones.resize(scene.occupants().size());
   for (LampStore& lamps : tile_lamps) lamps.resize(scene.occluders().size());
+  packet_lamps.resize(packet_levels);
+  for (LampStore& lamps : packet_lamps) lamps.resize(scene.occluders().size());
   chunk_lamps.resize(scene.occluders().size());
   near_lamps.resize(scene.occluders().size());
 }
@@ -80,46 +84,92 @@ LaneLamp SheetShader::lane_lamp(std::size_t light, int frame) const {
 }
 
 void SheetShader::begin_tile(const Effects& effects) {
-  const Scene& scene = tracer_.scene();
-  for (std::size_t light = 0; light < scene.lights.size(); ++light) {
-    const LampView& view = sheets_.lamp(light);
-    if (scene.lights[light].kind != LightKind::point || !view.in_lanes ||
-        static_cast<std::size_t>(view.bounded.table().count) < tile_list_from) {
-      continue;
-    }
-    const LaneLamp lamp = lane_lamp(light, scene.lights[light].frame);
-    LightSpan span;
-    for (const auto& sheet : work_.sheets) {
-      if (sheet.effects == &effects) sheets_.kernels().gather(lamp, sheet.rays, nullptr, span);
-    }
-    const Vec3 sum{span.sum[0], span.sum[1], span.sum[2]};
-    const double size = glm::length(sum);
-    Bundle bundle;
-    if (size > 0.0) {
-      for (int k = 0; k < 3; ++k) bundle.axis[k] = sum[k] / size;
-    }
-    for (const auto& sheet : work_.sheets) {
-      if (sheet.effects == &effects) sheets_.kernels().gather(lamp, sheet.rays, bundle.axis, span);
-    }
-    LampTable& list = work_.tile_lamps[light].table();
-    list.count = 0;
-    if (span.end < span.begin) continue;
-    // Twice the room of a chunk's own bundle, which must lie inside this one.
-    bundle.cosine = std::max(-1.0, std::min(span.least_cosine, 1.0) - 1e-12);
-    bundle.sine = std::sqrt(std::max(0.0, 1.0 - bundle.cosine * bundle.cosine)) + 1e-12;
-    bundle.reach = span.reach * (1.0 + 1e-12);
-    bundle.time = 0.5 * (span.begin + span.end);
-    bundle.half_time = 0.5 * (span.end - span.begin) * (1.0 + 1e-9) +
-                       1e-12 * std::max(std::abs(span.begin), std::abs(span.end));
-    if (!(size > 0.0)) {
-      bundle.cosine = -1.0;
-      bundle.sine = 1e-12;
-    }
-    sheets_.kernels().overlapping_lamps(view.bounded.table(), bundle, list);
+  sheet_ = -1;
+  effects_ = &effects;
+  for (std::size_t light = 0; light < work_.packets.size(); ++light) {
+    work_.packets[light].clear();
+    work_.tile_lamps[light].table().count = SheetScratch::not_listed;
+  }
+}
+
+// What may shade anything of the tile, where there are so many occluders that it helps to list them.
+const LampTable& SheetShader::occluders_of_tile(std::size_t light) {
+  const LampTable& all = sheets_.lamp(light).bounded.table();
+  if (static_cast<std::size_t>(all.count) < tile_list_from) return all;
+  LampTable& list = work_.tile_lamps[light].table();
+  if (list.count == SheetScratch::not_listed) list_for_tile(light, list);
+  return list;
+}
+
+void SheetShader::list_for_tile(std::size_t light, LampTable& list) const {
+  const LaneLamp lamp = lane_lamp(light, tracer_.scene().lights[light].frame);
+  LightSpan span;
+  for (const auto& sheet : work_.sheets) {
+    if (sheet.effects == effects_) sheets_.kernels().gather(lamp, sheet.rays, nullptr, span);
+  }
+  const Vec3 sum{span.sum[0], span.sum[1], span.sum[2]};
+  const double size = glm::length(sum);
+  Bundle bundle;
+  if (size > 0.0) {
+    for (int k = 0; k < 3; ++k) bundle.axis[k] = sum[k] / size;
+  }
+  for (const auto& sheet : work_.sheets) {
+    if (sheet.effects == effects_) sheets_.kernels().gather(lamp, sheet.rays, bundle.axis, span);
+  }
+  list.count = 0;
+  if (span.end < span.begin) return;
+  // Twice the room of a chunk's own bundle, which must lie inside this one.
+  bundle.cosine = std::max(-1.0, std::min(span.least_cosine, 1.0) - 1e-12);
+  bundle.sine = std::sqrt(std::max(0.0, 1.0 - bundle.cosine * bundle.cosine)) + 1e-12;
+  bundle.reach = span.reach * (1.0 + 1e-12);
+  bundle.time = 0.5 * (span.begin + span.end);
+  bundle.half_time = 0.5 * (span.end - span.begin) * (1.0 + 1e-9) +
+                     1e-12 * std::max(std::abs(span.begin), std::abs(span.end));
+  if (!(size > 0.0)) {
+    bundle.cosine = -1.0;
+    bundle.sine = 1e-12;
+  }
+  sheets_.kernels().overlapping_lamps(sheets_.lamp(light).bounded.table(), bundle, list);
+}
+
+bool SheetShader::in_packets(std::size_t light) const {
+  const Light& lamp = tracer_.scene().lights[light];
+  const LampView& view = sheets_.lamp(light);
+  return lamp.kind == LightKind::point && lamp.shadows && view.in_lanes &&
+         static_cast<std::size_t>(view.bounded.table().count) >= packets_from;
+}
+
+bool SheetShader::wants_packets() const {
+  for (std::size_t light = 0; light < tracer_.scene().lights.size(); ++light) {
+    if (in_packets(light)) return true;
+  }
+  return false;
+}
+
+// Of surfaces that take one ray at a time, the points are not found twice: they are left to the lists of
+// their sheets.
+void SheetShader::collect(const Occupant& occupant) {
+  begin_points(occupant);
+  if (hits_known_ || !sheets_.lit_in_lanes(occupant.frame) || resolve(occupant) < 0) return;
+  const std::vector<Light>& lights = tracer_.scene().lights;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (!in_packets(i)) continue;
+    sheets_.kernels().arrive(lane_lamp(i, occupant.frame), work_.points);
+    fill_strength(lights[i], i);
+    work_.packets[i].add(work_.points, sheet_, occupant.occluder);
+  }
+}
+
+void SheetShader::sift_packets() {
+  sheet_ = -1;
+  for (std::size_t i = 0; i < work_.packets.size(); ++i) {
+    if (!in_packets(i)) continue;
+    work_.packets[i].sift(sheets_.kernels(), sheets_.lamp(i).bounded.table(), work_.packet_lamps);
   }
 }
 
 void SheetShader::begin_points(const Occupant& occupant) {
+  ++sheet_;
   occupant_ = &occupant;
   hits_known_ = occupant.lanes->kind == LaneSurface::Kind::other;
   work_.points.frame = occupant.frame;
@@ -300,16 +350,18 @@ void SheetShader::shadow(std::size_t light) {
     shadow_of_distant(light);
     return;
   }
+  if (work_.packets[light].has(sheet_)) {
+    shadow_by_packets(light);
+    return;
+  }
   // What may shade anything of the tile, of it what may shade anything of this sheet, of that what may shade
   // a few neighbours: each list is made from the one before.
-  const bool listed = static_cast<std::size_t>(view.bounded.table().count) >= tile_list_from;
   const SheetKernels& kernels = sheets_.kernels();
   PointSheet& p = work_.points;
   Bundle bundle;
-  if (!kernels.light_bundle(p, 0, p.padded, bundle)) return;
-  const LampTable& all = listed ? work_.tile_lamps[light].table() : view.bounded.table();
+  if (!kernels.light_bundle(p.light_rays(), 0, p.padded, bundle)) return;
   LampTable& chunk = work_.chunk_lamps.table();
-  kernels.overlapping_lamps(all, bundle, chunk);
+  kernels.overlapping_lamps(occluders_of_tile(light), bundle, chunk);
   if (chunk.count <= few_occluders) {
     sift(light, chunk, bundle.time, 0, p.padded);
     return;
@@ -317,19 +369,34 @@ void SheetShader::shadow(std::size_t light) {
   LampTable& near = work_.near_lamps.table();
   for (int first = 0; first < p.padded; first += few) {
     const int last = std::min(first + few, p.padded);
-    if (!kernels.light_bundle(p, first, last, bundle)) continue;
+    if (!kernels.light_bundle(p.light_rays(), first, last, bundle)) continue;
     kernels.overlapping_lamps(chunk, bundle, near);
     sift(light, near, bundle.time, first, last);
   }
+}
+
+void SheetShader::shadow_by_packets(std::size_t light) {
+  const ShadowPackets& packets = work_.packets[light];
+  const std::uint64_t shaded = packets.shaded(sheet_);
+  PointSheet& p = work_.points;
+  for (int i = 0; i < p.count; ++i) {
+    if (((shaded >> i) & 1U) != 0) p.lit[i] = 0.0;
+  }
+  const std::vector<Occupant>& occluders = sheets_.occluders();
+  for (const ShadowPackets::Unclear& left : packets.unclear(sheet_)) {
+    try_occluder(light, occluders[static_cast<std::size_t>(left.who)], left.rays);
+  }
+  if (occupant_->occluder < 0 || occupant_->lanes->kind == LaneSurface::Kind::plane) return;
+  try_occluder(light, occluders[static_cast<std::size_t>(occupant_->occluder)], shaded_by_itself());
 }
 
 // The shadows of the listed occluders on the points from `first` to `last`.
 void SheetShader::sift(std::size_t light, const LampTable& near, double time, int first, int last) {
   for (int i = 0; i < near.count; ++i) {
     const Occupant& occluder = sheets_.occluders()[static_cast<std::size_t>(near.who[i])];
-    const std::uint64_t unclear = is_own(occluder)
-                                      ? shaded_by_itself()
-                                      : sheets_.kernels().sift(near, i, time, first, last, work_.points);
+    const std::uint64_t unclear =
+        is_own(occluder) ? shaded_by_itself()
+                         : sheets_.kernels().sift(near, i, time, first, last, work_.points.light_rays());
     try_occluder(light, occluder, unclear);
   }
 }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "shading_steps.h"
+#include "shadow_packets.h"
 #include "sheet_scene.h"
 
 namespace backlight {
@@ -27,7 +28,11 @@ struct SheetScratch {
   std::vector<FirstHit> far_hits;       ///< by place: of frames that take one ray at a time
   ConeStore tile_cones;                 ///< what the whole tile may meet
   ConeStore sheet_cones;                ///< what one sheet may meet
-  std::vector<LampStore> tile_lamps;    ///< by light: what may shade any of the tile's hits
+  static constexpr int not_listed = -1;
+  std::vector<LampStore>
+      tile_lamps;  ///< by light: what may shade any of the tile's hits; count: or not_listed
+  std::vector<ShadowPackets> packets;   ///< by light
+  std::vector<LampStore> packet_lamps;  ///< what may shade any of a packet of shadow rays, and of its parts
   LampStore chunk_lamps;                ///< what may shade any of the points of a sheet...
   LampStore near_lamps;                 ///< ...and a few of them
   // Hits sorted by what was hit:
@@ -68,8 +73,14 @@ class SheetShader {
   SheetShader(const Tracer& tracer, const SheetScene& sheets, int eye, SheetScratch& work, Scratch& scratch)
       : tracer_(tracer), sheets_(sheets), eye_(eye), work_(work), scratch_(scratch) {}
 
-  /// Finds for each light what may shade the hits of the sheets with these effects.
+  /// The sheets to come are those with these effects.
   void begin_tile(const Effects& effects);
+
+  /// Whether shadow rays are sorted into packets: then all points have to come twice in the same order, for
+  /// collect() and, after sift_packets(), for shade().
+  [[nodiscard]] bool wants_packets() const;
+  void collect(const Occupant& occupant);
+  void sift_packets();
 
   /// The points are now others, of this surface.
   void begin_points(const Occupant& occupant);
@@ -90,7 +101,11 @@ class SheetShader {
   [[nodiscard]] LaneLamp lane_lamp(std::size_t light, int frame) const;
   void fill_strength(const Light& light, std::size_t index);
   void fill_diffuse(std::size_t light, int material);
+  const LampTable& occluders_of_tile(std::size_t light);
+  void list_for_tile(std::size_t light, LampTable& list) const;
+  [[nodiscard]] bool in_packets(std::size_t light) const;
   void shadow(std::size_t light);
+  void shadow_by_packets(std::size_t light);
   void sift(std::size_t light, const LampTable& near, double time, int first, int last);
   void try_occluder(std::size_t light, const Occupant& occluder, std::uint64_t candidates);
   void try_one_by_one(std::size_t light, const Occupant& occluder);
@@ -109,6 +124,8 @@ class SheetShader {
   SheetScratch& work_;
   Scratch& scratch_;
   const Occupant* occupant_ = nullptr;  // whose points they are
+  int sheet_ = -1;                      // their number in the tile
+  const Effects* effects_ = nullptr;
   bool hits_known_ = false;
 };
 

@@ -200,7 +200,8 @@ class SheetSearch {
       scene_.kernels().overlapping(work_.tile_cones.table(), sheet.bundle, work_.sheet_cones.table());
       const ConeTable& near = work_.sheet_cones.table();
       for (int i = 0; i < near.count; ++i) {
-        ask(sheet, near.who[i], {{near.axis[0][i], near.axis[1][i], near.axis[2][i]}, near.level[i]});
+        ask(sheet, static_cast<int>(near.who[i]),
+            {{near.axis[0][i], near.axis[1][i], near.axis[2][i]}, near.level[i]});
       }
     }
   }
@@ -332,24 +333,38 @@ class SheetPainter {
     if (work_.groups.empty()) return;
     shader_.begin_tile(effects);
     work_.points.light_delay = effects.light_delay;
+    if (shader_.wants_packets()) {
+      for_each_sheet([&](const Occupant& occupant) { shader_.collect(occupant); });
+      shader_.sift_packets();
+    }
+    for_each_sheet([&](const Occupant& occupant) { paint_points(occupant, effects); });
+  }
+
+  // Whole sheets as they are; what is left of others together, so that lanes are filled.
+  template <class Work>
+  void for_each_sheet(const Work& work) {
     for (const auto& group : work_.groups) {
       const Occupant& occupant = scene_.occupants()[static_cast<std::size_t>(group.who)];
-      // Whole sheets as they are; what is left of others together, so that lanes are filled.
+      const auto do_points = [&] {
+        pad_points();
+        work(occupant);
+        work_.points.count = 0;
+      };
       for (int i = group.next - group.count; i < group.next; ++i) {
         const auto& part = work_.sorted[static_cast<std::size_t>(i)];
         if (part.mask != ~std::uint64_t{0}) continue;
         gather(occupant, part);
-        paint_points(occupant, effects);
+        do_points();
       }
       for (int i = group.next - group.count; i < group.next; ++i) {
         auto part = work_.sorted[static_cast<std::size_t>(i)];
         if (part.mask == ~std::uint64_t{0}) continue;
         while (part.mask != 0) {
           part.mask = gather(occupant, part);
-          if (work_.points.count == sheet_size) paint_points(occupant, effects);
+          if (work_.points.count == sheet_size) do_points();
         }
       }
-      if (work_.points.count > 0) paint_points(occupant, effects);
+      if (work_.points.count > 0) do_points();
     }
   }
 
@@ -453,23 +468,26 @@ class SheetPainter {
     p.count = sheet_size;
   }
 
-  // The colours of the points gathered, all of one surface; then there are none.
-  void paint_points(const Occupant& occupant, const Effects& effects) {
+  void pad_points() {
     PointSheet& p = work_.points;
     p.padded = padded_count(p.count);
     for (int i = p.count; i < p.padded; ++i) {
       for (auto& row : p.gathered) row[i] = row[p.count - 1];
     }
+  }
+
+  // The colours of the points gathered, all of one surface.
+  void paint_points(const Occupant& occupant, const Effects& effects) {
+    const PointSheet& p = work_.points;
     shader_.begin_points(occupant);
     if (scene_.lit_in_lanes(occupant.frame) && shader_.shade(occupant, effects)) {
       put_colours(occupant);
-    } else {
-      for (int i = 0; i < p.count; ++i) {
-        const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
-        one_ray(sheet, p.lane[i] % sheet_size, shader_.hit(i));
-      }
+      return;
     }
-    p.count = 0;
+    for (int i = 0; i < p.count; ++i) {
+      const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
+      one_ray(sheet, p.lane[i] % sheet_size, shader_.hit(i));
+    }
   }
 
   void put_colours(const Occupant& occupant) {

@@ -41,8 +41,10 @@ CullingChoice for_light(const Light& light, bool in_lanes, const CullingChoice& 
   } else if (light.kind == LightKind::distant) {
     choice.method = "shadow cylinders per sheet";
   } else {
-    const bool listed = choice.surfaces + choice.trees >= tile_list_from;
-    choice.method = listed ? "light-sky cones per tile" : "light-sky cones per sheet";
+    const std::size_t occluders_of_lists = choice.surfaces + choice.trees;
+    choice.method = occluders_of_lists >= packets_from     ? "light-sky cones per sorted packet"
+                    : occluders_of_lists >= tile_list_from ? "light-sky cones per tile"
+                                                           : "light-sky cones per sheet";
   }
   return choice;
 }

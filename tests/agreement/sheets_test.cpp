@@ -103,6 +103,44 @@ INSTANTIATE_TEST_SUITE_P(Fields, SheetsOfSpheres,
                          testing::Combine(testing::Values(10, 200, 1000),
                                           testing::Values(1.0, 1.2, 3.0, 30.0, 1e4)));
 
+// So many spheres that shadow rays are sorted into packets, for two lights and regions of other effects. A
+// ball around everything is seen from within, and its shadow rays start from within; what else lanes cannot
+// decide about is here too.
+TEST(Sheets, AreTheLawInSortedPackets) {
+  const std::string more = R"toml(
+[[light]]
+position = [3, 4, -5]
+beta = [0.2, 0.3, 0]
+intensity = "100 + 60*sin(3*t)"
+[[object]]
+shape = "sphere"
+radius = 9.5
+position = [0, 1, -9]
+material = { color = [0.2, 0.4, 0.8] }
+[[object]]
+shape = "torus"
+major = 1
+minor = 0.3
+rotate = [50, 20, 0]
+position = [1, 1, -1]
+beta = [0.5, 0.1, 0.2]
+[[object]]
+shape = "sphere"
+radius = 0.8
+scale = [1, 0.5, 1.5]
+position = [-3, 0, -2]
+beta = [0, 0.4, 0.4]
+material = { checker = { colors = [[0.8, 0.8, 0.1], [0.1, 0.1, 0.9]], size = 0.1 } }
+)toml";
+  const std::string regions = "[[effects.region]]\nrect = [0.3, 0.2, 0.7, 0.9]\nlight_delay = false\n";
+  for (const double gamma : {3.0, 40.0}) {
+    Field field{.spheres = 1600, .gamma = gamma, .width = 40, .height = 27, .top = regions, .density = 1.5};
+    expect_the_law(scene_of(field), three_colours);
+    field.more = more;
+    expect_the_law(scene_of(field), three_colours);
+  }
+}
+
 TEST(Sheets, AreTheLawWithSpectra) {
   expect_the_law(scene_of({.spheres = 40, .gamma = 3.0, .width = 48, .height = 32}));
 }

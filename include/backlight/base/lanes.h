@@ -105,6 +105,19 @@ BACKLIGHT_LANES unsigned bits(LaneMask<N> mask) {
   return all;
 }
 
+/// Stores the lanes whose bits are set one after the other; what follows them, up to a whole register, may be
+/// overwritten.
+template <int N>
+BACKLIGHT_LANES void store_kept(Lanes<N> a, unsigned keep, double* to) {
+#if defined(__AVX512F__)
+  if constexpr (N == 8) {
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(keep), (__m512d)a.v));
+    return;
+  }
+#endif
+  for (; keep != 0; keep &= keep - 1) *to++ = a.v[__builtin_ctz(keep)];
+}
+
 /// The opposite of bits().
 template <int N>
 BACKLIGHT_LANES LaneMask<N> mask_of_bits(unsigned all) {

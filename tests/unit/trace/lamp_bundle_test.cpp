@@ -97,7 +97,7 @@ void add(const Occluder& o, LampTable& table) {
   table.radius[j] =
       double(o.radius * (1 + Exact(1e-11)) + Exact(1e-13) * (std::sqrt(dot(o.place, o.place)) + 2 * o.gamma));
   table.core[j] = 0.0;
-  table.who[j] = j;
+  table.who[j] = double(j);
 }
 
 class LampBundles : public testing::TestWithParam<double> {

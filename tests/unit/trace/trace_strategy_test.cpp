@@ -43,6 +43,12 @@ TEST(TraceStrategy, TakesOneTreeForManySurfacesOfAFrame) {
             "light-sky cones per tile: 60 surfaces, 1 tree of a frame");
 }
 
+TEST(TraceStrategy, SortsShadowRaysForManyThatMove) {
+  Scene scene = spheres(1500, 0);
+  scene.lights.resize(1);
+  EXPECT_EQ(in_words(trace_strategy(scene).shadows[0]), "light-sky cones per sorted packet: 1500 surfaces");
+}
+
 TEST(TraceStrategy, GoesRayByRayWhereEveryRayHasItsOwnEye) {
   Scene scene = spheres(2, 1);
   scene.camera.stereo.emplace();
