@@ -1,4 +1,5 @@
 // Sheets of rays against the law: one ray at a time, every object asked. The same bits, or it is a defect.
+// Longer than 400 lines: one list of scenes, which share what makes and compares them.
 #include <gtest/gtest.h>
 
 #include <cmath>
