@@ -43,6 +43,9 @@ class PixelWriter {
   }
   bool data(int x, int y, const PixelData& data) const;
 
+  /// Fetches a row of so many pixels into the caches: they are going to be written.
+  void expect(std::size_t at, std::size_t columns) const;
+
   /// The colours of a whole block (pixel_blocks.h) of one sample each, which begin at `first` of the tile's
   /// light; returns how many are not finite as floats. `at`: of its first pixel; `width`: of the data window.
   std::uint64_t block(std::size_t at, std::size_t width, const TileLight& light, std::size_t first) const;

@@ -151,6 +151,9 @@ void ViewRenderer::trace_point(const ImagePoint& point, Scratch& scratch, PixelS
 
 void ViewRenderer::tile_in_sheets(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {
   list_missing(box, m.missing);
+  for (int y = box.y0; y < box.y1; ++y) {
+    writer_.expect(image_.offset(box.x0, y), static_cast<std::size_t>(box.width()));
+  }
   const Scene& scene = tracer_.scene();
   const int samples = scene.film.samples;
   const bool records = samples == 1 && has_data_channels(scene) && !has_light_channels(scene);
