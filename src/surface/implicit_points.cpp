@@ -155,13 +155,12 @@ class Batch {
 
 }  // namespace
 
-void implicit_points(const Shape& shape, std::span<const LocalLine> lines,
-                     std::span<const Crossing> crossings, TextureCoordinates wanted,
-                     std::span<LocalPoint> points) {
+void implicit_points(const Shape& shape, const LocalLines& lines, std::span<const Crossing> crossings,
+                     TextureCoordinates wanted, std::span<LocalPoint> points) {
   const double size = glm::length(implicit_high(shape) - implicit_low(shape));
   Batch batch(*shape.formula, size);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const LocalLine line = timed(shape, lines[i]);
+  for (std::size_t i = 0; i < lines.count; ++i) {
+    const LocalLine line = timed(shape, lines.line(i));
     const Crossing& crossing = crossings[i];
     LocalPoint& point = points[i];
     point = LocalPoint{};

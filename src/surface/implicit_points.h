@@ -25,8 +25,7 @@ inline Vec3 implicit_high(const Shape& shape) {
 }
 
 /// The method `points` of implicit shapes. What is found of a point does not depend on the others.
-void implicit_points(const Shape& shape, std::span<const LocalLine> lines,
-                     std::span<const Crossing> crossings, TextureCoordinates wanted,
-                     std::span<LocalPoint> points);
+void implicit_points(const Shape& shape, const LocalLines& lines, std::span<const Crossing> crossings,
+                     TextureCoordinates wanted, std::span<LocalPoint> points);
 
 }  // namespace backlight

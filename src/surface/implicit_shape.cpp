@@ -109,38 +109,88 @@ Crossings walk_along(const Shape& shape, const LocalLine& line, double from, dou
   return result;
 }
 
-void first_crossings_of(const Shape& shape, std::span<const LocalLine> lines, double lambda_min,
-                        std::span<Crossings> results) {
-  Questions& q = questions_of_thread();
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const LocalLine& line = lines[i];
-    results[i] = {};
-    const Stretch stretch = inside_bounds(shape, line);
-    const double start = (lambda_min - line.lambda_centre - line.lambda_shift) / line.lambda_per_length;
-    const double from = std::max(stretch.in, start);
-    if (!(from <= stretch.out)) continue;
-    q.pieces.push_back({formula_line(shape, line), from, stretch.out});
-    q.line_of.push_back(i);
-  }
+/// Puts the question for the roots of a line beyond lambda_min, if it is inside the bounds there.
+void ask(const Shape& shape, const LocalLine& line, const Stretch& stretch, double start, std::size_t i,
+         Questions& q) {
+  const double from = std::max(stretch.in, start);
+  if (!(from <= stretch.out)) return;
+  q.pieces.push_back({formula_line(shape, line), from, stretch.out});
+  q.line_of.push_back(i);
+}
+
+void answer(const Shape& shape, Questions& q, RootsWanted wanted) {
   q.roots.resize(q.pieces.size());
-  first_roots(*shape.formula, q.pieces, q.roots, finder_of(shape));
+  first_roots(*shape.formula, q.pieces, q.roots, finder_of(shape), nullptr, wanted);
+}
+
+void first_crossings_of(const Shape& shape, const LocalLines& lines, double lambda_min,
+                        std::span<FirstOnLine> results) {
+  std::fill_n(results.begin(), lines.count, FirstOnLine{});
+  Questions& q = questions_of_thread();
+  for (std::size_t i = 0; i < lines.count; ++i) {
+    const LocalLine line = lines.line(i);
+    ask(shape, line, inside_bounds(shape, line), lines.at_lambda(i, lambda_min), i, q);
+  }
+  answer(shape, q, RootsWanted::places);
   for (std::size_t k = 0; k < q.pieces.size(); ++k) {
-    if (!found(q.roots[k])) continue;
+    const Root& root = q.roots[k];
+    if (!found(root)) continue;
     ++roots_solved;
-    const LocalLine& line = lines[q.line_of[k]];
-    Crossings& result = results[q.line_of[k]];
-    if (!skipped(shape, q.roots[k]) && line.lambda(q.roots[k].t) > lambda_min) {
-      result.list[result.count++] = crossing_of(q.roots[k]);
-    } else {
-      result = walk_along(shape, line, q.pieces[k].from, q.pieces[k].to, lambda_min, Wanted::first);
+    const std::size_t i = q.line_of[k];
+    if (!skipped(shape, root) && lines.lambda(i, root.t) > lambda_min) {
+      results[i] = {root.t, root.kind == RootKind::unresolved};
+      continue;
     }
+    const Crossings rest =
+        walk_along(shape, lines.line(i), q.pieces[k].from, q.pieces[k].to, lambda_min, Wanted::first);
+    if (rest.count > 0) results[i] = {rest.list[0].t, rest.list[0].unresolved};
+  }
+}
+
+void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, double lambda_max,
+            std::span<bool> results) {
+  std::fill_n(results.begin(), lines.count, false);
+  Questions& q = questions_of_thread();
+  LocalLines ending;  // before they leave the bounds: there the place of a root matters
+  std::size_t line_of[LocalLines::most];
+  for (std::size_t i = 0; i < lines.count; ++i) {
+    const LocalLine line = lines.line(i);
+    const Stretch stretch = inside_bounds(shape, line);
+    if (lines.is_before(i, stretch.out, lambda_max)) {
+      ask(shape, line, stretch, lines.at_lambda(i, lambda_min), i, q);
+    } else {
+      line_of[ending.count] = i;
+      ending.add(line);
+    }
+  }
+  answer(shape, q, RootsWanted::existence);
+  for (std::size_t k = 0; k < q.pieces.size(); ++k) {
+    const Root& root = q.roots[k];
+    if (!found(root)) continue;
+    ++roots_solved;
+    const std::size_t i = q.line_of[k];
+    results[i] = !skipped(shape, root) && lines.lambda(i, root.t) > lambda_min;
+    if (results[i]) continue;
+    const Crossings rest =
+        walk_along(shape, lines.line(i), q.pieces[k].from, q.pieces[k].to, lambda_min, Wanted::first);
+    results[i] = rest.count > 0;
+  }
+  if (ending.count == 0) return;
+  FirstOnLine first[LocalLines::most];
+  first_crossings_of(shape, ending, lambda_min, first);
+  for (std::size_t k = 0; k < ending.count; ++k) {
+    results[line_of[k]] = ending.lambda(k, first[k].t) < lambda_max;
   }
 }
 
 Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
   if (wanted == Wanted::first) {
+    LocalLines one;
+    one.add(line);
+    FirstOnLine first;
+    first_crossings_of(shape, one, lambda_min, {&first, 1});
     Crossings result;
-    first_crossings_of(shape, {&line, 1}, lambda_min, {&result, 1});
+    if (first.t < infinite) result.list[result.count++] = {first.t, 0, first.unresolved};
     return result;
   }
   const Stretch stretch = inside_bounds(shape, line);
@@ -155,15 +205,18 @@ void begin_walk(const Shape& shape, const LocalLine& line, double from, SolidWal
 
 LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
   LocalPoint point;
-  implicit_points(shape, {&line, 1}, {&crossing, 1}, TextureCoordinates::wanted, {&point, 1});
+  LocalLines one;
+  one.add(line);
+  implicit_points(shape, one, {&crossing, 1}, TextureCoordinates::wanted, {&point, 1});
   return point;
 }
 
 }  // namespace
 
-const ShapeMethods implicit_methods{ShapeKind::implicit, "implicit",         true,         problem_of,
-                                    radius_of,           extent_of,          crossings_of, point_of,
-                                    begin_walk,          first_crossings_of, finder_of,    implicit_points};
+const ShapeMethods implicit_methods{
+    ShapeKind::implicit, "implicit",      true,     problem_of, radius_of,
+    extent_of,           crossings_of,    point_of, begin_walk, first_crossings_of,
+    finder_of,           implicit_points, blocks};
 
 std::uint64_t roots_solved_by_this_thread() {
   return roots_solved;

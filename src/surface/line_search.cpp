@@ -122,6 +122,7 @@ void LineSearch::advance(int sign, double size) {
 void LineSearch::start_polishing() {
   root_ = {begin_, RootKind::crossing, sign_begin_, sign_end_, begin_, end_};
   if (wanted_ == RootsWanted::existence) {
+    root_.t = end_;
     state_ = State::with_root;
     return;
   }

@@ -42,11 +42,6 @@ struct PolynomialKernels {
   void (*find_roots)(PolynomialQuestions& lines, std::size_t count, bool existence_is_enough);
 };
 
-/// For polynomials of this degree.
-PolynomialKernels polynomial_kernels_baseline(int degree);
-PolynomialKernels polynomial_kernels_avx2(int degree);
-PolynomialKernels polynomial_kernels_avx512(int degree);
-
 /// Coefficient j of ηᵏ on [-1, 1] in Bernstein's form of degree n: its polar form with j times 1 and n - j
 /// times -1. No more than 1.
 template <int n>
@@ -261,22 +256,17 @@ class PolynomialLanes {
 
 /// The kernels of the least degree among some that is not below the polynomials': the coefficients above are
 /// 0.
-template <int width>
-struct PolynomialLanesOfAnyDegree {
-  using V = Lanes<width>;
-
-  template <int n>
-  static constexpr PolynomialKernels of_degree{PolynomialLanes<V, n>::find_signs,
-                                               PolynomialLanes<V, n>::find_roots};
-
-  static PolynomialKernels of(int degree) {
-    if (degree <= 2) return of_degree<2>;
-    if (degree <= 3) return of_degree<3>;
-    if (degree <= 4) return of_degree<4>;
-    if (degree <= 6) return of_degree<6>;
-    if (degree <= 8) return of_degree<8>;
-    return of_degree<12>;
-  }
-};
+template <class V>
+PolynomialKernels polynomial_kernels_of(int degree) {
+  const auto of = []<int n>() -> PolynomialKernels {
+    return {PolynomialLanes<V, n>::find_signs, PolynomialLanes<V, n>::find_roots};
+  };
+  if (degree <= 2) return of.template operator()<2>();
+  if (degree <= 3) return of.template operator()<3>();
+  if (degree <= 4) return of.template operator()<4>();
+  if (degree <= 6) return of.template operator()<6>();
+  if (degree <= 8) return of.template operator()<8>();
+  return of.template operator()<12>();
+}
 
 }  // namespace backlight

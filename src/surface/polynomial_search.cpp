@@ -5,22 +5,13 @@
 #include <vector>
 
 #include "affine_search.h"
-#include "backlight/base/instruction_sets.h"
 #include "newton_bracket.h"
-#include "polynomial_lanes.h"
+#include "surface_kernels.h"
 
 namespace backlight {
 namespace {
 
 constexpr std::size_t window = LinePolynomials::most;
-
-PolynomialKernels kernels_of(int degree) {
-#if defined(__x86_64__)
-  if (has_good_avx512()) return polynomial_kernels_avx512(degree);
-  if (has_avx2()) return polynomial_kernels_avx2(degree);
-#endif
-  return polynomial_kernels_baseline(degree);
-}
 
 /// A root on its way to full precision.
 struct Settling {
@@ -53,7 +44,7 @@ class PolynomialSearch {
                    RootsWanted wanted, RootWork& work)
       : f_(f),
         program_(f.program()),
-        kernels_(kernels_of(*f.program().degree())),
+        kernels_(surface_kernels().polynomials(*f.program().degree())),
         pieces_(pieces),
         roots_(roots),
         existence_(wanted == RootsWanted::existence),
@@ -127,7 +118,7 @@ class PolynomialSearch {
       if (q.verdict[k] != PolynomialQuestions::crossing) continue;
       const int sign = q.sign[k] > 0.0 ? 1 : -1;
       const LinePiece& piece = pieces_[i];
-      roots_[i] = {piece.from, RootKind::crossing, sign, -sign, piece.from, piece.to};
+      roots_[i] = {piece.to, RootKind::crossing, sign, -sign, piece.from, piece.to};
       if (!existence_) begin_settling(i, k);
     }
   }

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "backlight/surface/shape.h"
-#include "local_line.h"
+#include "local_lines.h"
 
 namespace backlight {
 
@@ -37,6 +37,12 @@ struct Crossings {
 /// the first of the others; what they report is the same to the last bit however many lines are asked
 /// together. `all`: the whole line; they may differ from the first ones by rounding.
 enum class Wanted { first, all };
+
+/// The first crossing of a line, at t, of the face 0; infinity: there is none.
+struct FirstOnLine {
+  double t = std::numeric_limits<double>::infinity();
+  bool unresolved = false;
+};
 
 /// A point put onto the surface, in local coordinates. The gradient points outward and has any length.
 struct LocalPoint {
@@ -80,12 +86,15 @@ struct ShapeMethods {
   /// before the line's parameter `from`. Null: `crossings` reports them all.
   void (*begin_walk)(const Shape&, const LocalLine&, double from, SolidWalk&);
   /// The first crossings of many lines at once, each as `crossings` would report it; null: one by one.
-  void (*first_crossings)(const Shape&, std::span<const LocalLine>, double lambda_min, std::span<Crossings>);
+  void (*first_crossings)(const Shape&, const LocalLines&, double lambda_min, std::span<FirstOnLine>);
   /// How crossings are found; null: in closed form.
   RootFinder (*finder)(const Shape&);
   /// The points of many crossings, each on its own line and as `point` would find it; null: one by one.
-  void (*points)(const Shape&, std::span<const LocalLine>, std::span<const Crossing>, TextureCoordinates,
+  void (*points)(const Shape&, const LocalLines&, std::span<const Crossing>, TextureCoordinates,
                  std::span<LocalPoint>);
+  /// Whether each of many lines crosses the shape between the two λ, however many are asked together. Null:
+  /// that is asked of the first crossings. A shape has it if it has first_crossings.
+  void (*blocks)(const Shape&, const LocalLines&, double lambda_min, double lambda_max, std::span<bool>);
 };
 
 /// The row of a kind.

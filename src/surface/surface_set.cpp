@@ -132,6 +132,17 @@ bool SurfaceSet::may_meet(const RestRay& ray, double lambda_min, double lambda_m
          (middle - half <= lambda_max);
 }
 
+bool SurfaceSet::is_blocked_by(const PlacedSurface& surface, const RestRay& ray, double lambda_min,
+                               double lambda_max) {
+  const auto blocks = methods(surface.shape).blocks;
+  if (blocks == nullptr) return first_crossing(surface, ray, lambda_min).lambda < lambda_max;
+  LocalLines line;
+  line.add(local_line(ray, surface));
+  bool result = false;
+  blocks(surface.shape, line, lambda_min, lambda_max, {&result, 1});
+  return result;
+}
+
 /// Tries the surfaces of a range of the search order. True: the search may stop.
 template <bool any>
 bool SurfaceSet::search_range(const RestRay& ray, double lambda_min, std::size_t first, std::size_t last,
@@ -141,12 +152,15 @@ bool SurfaceSet::search_range(const RestRay& ray, double lambda_min, std::size_t
       continue;
     }
     const int index = index_[slot];
-    const FirstCrossing crossing =
-        first_crossing(surfaces_[static_cast<std::size_t>(index)], ray, lambda_min);
-    if (crossing.lambda < best.lambda || (crossing.lambda == best.lambda && index < best.surface)) {
-      best = {crossing.lambda, index, crossing.part, crossing.unresolved, crossing.along};
-      if constexpr (any) {
-        return true;
+    const PlacedSurface& surface = surfaces_[static_cast<std::size_t>(index)];
+    if constexpr (any) {
+      if (!is_blocked_by(surface, ray, lambda_min, best.lambda)) continue;
+      best.surface = index;
+      return true;
+    } else {
+      const FirstCrossing crossing = first_crossing(surface, ray, lambda_min);
+      if (crossing.lambda < best.lambda || (crossing.lambda == best.lambda && index < best.surface)) {
+        best = {crossing.lambda, index, crossing.part, crossing.unresolved, crossing.along};
       }
     }
   }
@@ -241,94 +255,12 @@ Hit SurfaceSet::first_crossing_of(int surface, const Vec3& origin, const Vec3& d
   return {first.lambda, surface, first.part, first.unresolved, first.along};
 }
 
-void SurfaceSet::first_crossings_of(int surface, const Rays& rays, std::span<Hit> hits) const {
-  const PlacedSurface& placed = surfaces_[static_cast<std::size_t>(surface)];
-  const auto vec = [](const double* const(&of)[3], std::size_t i) {
-    return Vec3{of[0][i], of[1][i], of[2][i]};
-  };
-  const auto many = methods(placed.shape).first_crossings;
-  if (many == nullptr) {
-    for (std::size_t i = 0; i < rays.count; ++i) {
-      hits[i] = first_crossing_of(surface, vec(rays.origin, i), vec(rays.direction, i),
-                                  {rays.time[i], rays.rate[i]});
-    }
-    return;
-  }
-  thread_local std::vector<LocalLine> lines;
-  thread_local std::vector<Crossings> found;
-  lines.clear();
-  for (std::size_t i = 0; i < rays.count; ++i) {
-    const RayClock clock{rays.time[i], rays.rate[i]};
-    lines.push_back(local_line(RestRay(vec(rays.origin, i), vec(rays.direction, i), clock), placed));
-  }
-  found.resize(lines.size());
-  many(placed.shape, lines, 0.0, found);
-  for (std::size_t i = 0; i < rays.count; ++i) {
-    const FirstCrossing first = first_of(found[i], lines[i], 0.0);
-    const bool hit = first.lambda < std::numeric_limits<double>::infinity();
-    hits[i] = hit ? Hit{first.lambda, surface, first.part, first.unresolved, first.along} : Hit{};
-  }
-}
-
-void SurfaceSet::resolve_all(std::span<const Hit> hits, const Rays& rays, bool with_texture_coordinates,
-                             std::span<SurfacePoint> points) const {
-  const auto ray = [&](std::size_t i) {
-    return RestRay({rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]},
-                   {rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]},
-                   {rays.time[i], rays.rate[i]});
-  };
-  const PlacedSurface& surface = surfaces_[static_cast<std::size_t>(hits[0].surface)];
-  const auto many = methods(surface.shape).points;
-  const auto lost = [](const Hit& hit) { return std::isnan(hit.along); };
-  if (many == nullptr || std::any_of(hits.begin(), hits.end(), lost)) {
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      const RestRay one = ray(i);
-      points[i] = resolve(hits[i], one.origin, one.direction, one.clock);
-    }
-    return;
-  }
-  thread_local std::vector<LocalLine> lines;
-  thread_local std::vector<Crossing> crossings;
-  thread_local std::vector<LocalPoint> local;
-  lines.clear();
-  crossings.clear();
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    lines.push_back(local_line(ray(i), surface));
-    crossings.push_back({hits[i].along, hits[i].part, hits[i].unresolved});
-  }
-  local.resize(lines.size());
-  many(surface.shape, lines, crossings,
-       with_texture_coordinates ? TextureCoordinates::wanted : TextureCoordinates::unwanted, local);
-  std::transform(local.begin(), local.end(), points.begin(),
-                 [&](const LocalPoint& point) { return surface_point(surface, point); });
-}
-
 std::size_t SurfaceSet::asked_one_by_one() const {
   return static_cast<std::size_t>(
       std::count_if(surfaces_.begin(), surfaces_.end(), [](const PlacedSurface& surface) {
         return surface.shape.kind != ShapeKind::sphere && !is_infinite(surface.shape) &&
                methods(surface.shape).first_crossings == nullptr;
       }));
-}
-
-LaneSurface SurfaceSet::lane_surface(int surface) const {
-  const PlacedSurface& placed = surfaces_[static_cast<std::size_t>(surface)];
-  const Mat3& inverse = placed.placement.local_from_rest();
-  LaneSurface lanes;
-  if (placed.shape.kind == ShapeKind::sphere) lanes.kind = LaneSurface::Kind::sphere;
-  if (placed.shape.kind == ShapeKind::plane) lanes.kind = LaneSurface::Kind::plane;
-  lanes.aligned = placed.aligned;
-  lanes.radius = placed.shape.values[0];
-  lanes.bounding_radius = placed.radius;
-  for (int c = 0; c < 3; ++c) {
-    lanes.centre[c] = placed.placement.position()[c];
-    for (int r = 0; r < 3; ++r) {
-      lanes.local_from_rest.column[c][r] = inverse[c][r];
-      lanes.normal_from_gradient.column[c][r] = inverse[r][c];
-      lanes.rest_from_local.column[c][r] = placed.placement.rest_from_local()[c][r];
-    }
-  }
-  return lanes;
 }
 
 BoundingSphere SurfaceSet::bounds(int surface) const {

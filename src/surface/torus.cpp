@@ -18,9 +18,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "backlight/base/instruction_sets.h"
 #include "shape_table.h"
-#include "torus_lanes.h"
+#include "surface_kernels.h"
 
 namespace backlight {
 namespace {
@@ -163,53 +162,44 @@ Crossings all_crossings(const Shape& shape, const LocalLine& line) {
   return result;
 }
 
-TorusKernel widest_kernel() {
-#if defined(__x86_64__)
-  if (has_good_avx512()) return torus_roots_avx512;
-  if (has_avx2()) return torus_roots_avx2;
-#endif
-  return torus_roots_baseline;
+TorusQuestion question_of(const Shape& shape, double lambda_min) {
+  return {shape.values[0], shape.values[1], lambda_min};
 }
 
-/// Up to TorusLines::most lines. The spare lanes do what the last line does.
-void first_of_some(const Shape& shape, std::span<const LocalLine> lines, double lambda_min,
-                   std::span<Crossings> results) {
-  static const TorusKernel kernel = widest_kernel();
-  thread_local TorusLines batch;
-  const std::size_t padded = (lines.size() + 7) / 8 * 8;
-  for (std::size_t k = 0; k < padded; ++k) {
-    const LocalLine& line = lines[std::min(k, lines.size() - 1)];
-    for (int axis = 0; axis < 3; ++axis) {
-      batch.point[axis][k] = line.point[axis];
-      batch.direction[axis][k] = line.direction[axis];
-    }
-    batch.start[k] = (lambda_min - line.lambda_centre - line.lambda_shift) / line.lambda_per_length;
-  }
-  kernel(batch, padded, shape.values[0], shape.values[1]);
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    results[k] = {};
-    const double t = batch.root[k];
-    if (!(t < infinite)) continue;
-    if (lines[k].lambda(t) > lambda_min) {
-      results[k].add(t, 0);
-    } else {  // a root at the very start
-      results[k] = all_crossings(shape, lines[k]);
-    }
+void first_crossings_of(const Shape& shape, const LocalLines& lines, double lambda_min,
+                        std::span<FirstOnLine> results) {
+  alignas(64) double roots[LocalLines::most];
+  surface_kernels().torus_roots(question_of(shape, lambda_min), lines, roots);
+  for (std::size_t k = 0; k < lines.count; ++k) {
+    results[k] = {roots[k]};
+    if (!(roots[k] < infinite) || lines.lambda(k, roots[k]) > lambda_min) continue;
+    // A root at the very start.
+    const LocalLine line = lines.line(k);
+    const Crossings all = all_crossings(shape, line);
+    int first = 0;
+    while (first < all.count && !(line.lambda(all.list[first].t) > lambda_min)) ++first;
+    results[k] = first < all.count ? FirstOnLine{all.list[first].t} : FirstOnLine{};
   }
 }
 
-void first_crossings_of(const Shape& shape, std::span<const LocalLine> lines, double lambda_min,
-                        std::span<Crossings> results) {
-  for (std::size_t first = 0; first < lines.size(); first += TorusLines::most) {
-    const std::size_t count = std::min(TorusLines::most, lines.size() - first);
-    first_of_some(shape, lines.subspan(first, count), lambda_min, results.subspan(first, count));
-  }
+void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, double lambda_max,
+            std::span<bool> results) {
+  alignas(64) double roots[LocalLines::most];
+  TorusQuestion question = question_of(shape, lambda_min);
+  question.existence_is_enough = true;
+  question.lambda_max = lambda_max;
+  surface_kernels().torus_roots(question, lines, roots);
+  for (std::size_t k = 0; k < lines.count; ++k) results[k] = lines.lambda(k, roots[k]) < lambda_max;
 }
 
 Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
   if (wanted == Wanted::all) return all_crossings(shape, line);
+  LocalLines one;
+  one.add(line);
+  FirstOnLine first;
+  first_crossings_of(shape, one, lambda_min, {&first, 1});
   Crossings result;
-  first_crossings_of(shape, {&line, 1}, lambda_min, {&result, 1});
+  if (first.t < infinite) result.add(first.t, 0);
   return result;
 }
 
@@ -236,10 +226,10 @@ LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& c
   return point_on(shape, line, crossing.t, TextureCoordinates::wanted);
 }
 
-void points_of(const Shape& shape, std::span<const LocalLine> lines, std::span<const Crossing> crossings,
+void points_of(const Shape& shape, const LocalLines& lines, std::span<const Crossing> crossings,
                TextureCoordinates wanted, std::span<LocalPoint> points) {
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    points[i] = point_on(shape, lines[i], crossings[i].t, wanted);
+  for (std::size_t i = 0; i < lines.count; ++i) {
+    points[i] = point_on(shape, lines.line(i), crossings[i].t, wanted);
   }
 }
 
@@ -268,7 +258,7 @@ RootFinder finder_of(const Shape& /*shape*/) {
 
 const ShapeMethods torus_methods{ShapeKind::torus, "torus",      true,     problem_of, bounding_radius,
                                  half_extent,      crossings_of, point_of, nullptr,    first_crossings_of,
-                                 finder_of,        points_of};
+                                 finder_of,        points_of,    blocks};
 
 Shape torus(double major, double minor) {
   return {ShapeKind::torus, {major, minor}, {}};

@@ -5,39 +5,44 @@
 // meets the torus about there), the middle one is minus their sum.
 #pragma once
 
-#include <cstddef>
-
-#include "backlight/base/lanes.h"
+#include "local_lines.h"
 
 namespace backlight {
 
-/// Lines as arrays, a multiple of eight of them: point + t direction, where t > start counts.
-struct TorusLines {
-  static constexpr std::size_t most = 64;
-  double point[3][most];
-  double direction[3][most];
-  double start[most];
-  double root[most];  ///< found: the first, or infinity
+struct TorusQuestion {
+  double major, minor;
+  double lambda_min;  ///< only what is beyond counts
+  /// Then all that matters is whether there is one in front of lambda_max.
+  bool existence_is_enough = false;
+  double lambda_max = __builtin_inf();
 };
-
-using TorusKernel = void (*)(TorusLines& lines, std::size_t count, double major, double minor);
-
-void torus_roots_baseline(TorusLines& lines, std::size_t count, double major, double minor);
-void torus_roots_avx2(TorusLines& lines, std::size_t count, double major, double minor);
-void torus_roots_avx512(TorusLines& lines, std::size_t count, double major, double minor);
 
 template <class V>
 class TorusLanes {
  public:
   using Mask = typename V::Mask;
 
-  BACKLIGHT_LANES TorusLanes(const TorusLines& lines, std::size_t k, double major, double minor)
+  /// The first root of each line, or infinity; of a padded number of lines.
+  static void run(const TorusQuestion& question, const LocalLines& lines, double* roots) {
+    for (std::size_t k = 0; k < lines.padded(); k += V::width) {
+      TorusLanes torus(question, lines, k);
+      (question.existence_is_enough ? torus.any_root() : torus.first_root()).store(roots + k);
+    }
+  }
+
+ private:
+  BACKLIGHT_LANES TorusLanes(const TorusQuestion& question, const LocalLines& lines, std::size_t k)
       : p_(V::load(lines.point[0] + k), V::load(lines.point[1] + k), V::load(lines.point[2] + k)),
         d_(V::load(lines.direction[0] + k), V::load(lines.direction[1] + k), V::load(lines.direction[2] + k)),
-        start_(V::load(lines.start + k)),
-        major_(major),
-        minor_(minor),
-        size_(major + minor) {}
+        major_(question.major),
+        minor_(question.minor),
+        size_(question.major + question.minor) {
+    centre_ = V::load(lines.lambda_centre + k);
+    shift_ = V::load(lines.lambda_shift + k);
+    per_length_ = V::load(lines.lambda_per_length + k);
+    start_ = (V(question.lambda_min) - centre_ - shift_) / per_length_;
+    lambda_max_ = V(question.lambda_max);
+  }
 
   BACKLIGHT_LANES V first_root() {
     const V none(__builtin_inf());
@@ -49,7 +54,23 @@ class TorusLanes {
     return select(found, polished(found), none);
   }
 
- private:
+  /// The first root where it may be behind λ_max; where there is one that is not, minus infinity.
+  BACKLIGHT_LANES V any_root() {
+    const V none(__builtin_inf());
+    const Mask meets = clip();
+    if (bits(meets) == 0) return none;
+    find_cuts();
+    const Mask crossed = find_bracket();
+    const Mask found = crossed & meets;
+    const V along = shift_ + to_ * per_length_;
+    const V room = V(lambda_room) * (magnitude(centre_) + (magnitude(shift_) + magnitude(along)));
+    const Mask before = found & ((centre_ + along) + room < lambda_max_);
+    const Mask open = found & ~before;
+    V root = select(before, -none, none);
+    if (bits(open) != 0) root = select(open, polished(open), root);
+    return root;
+  }
+
   static BACKLIGHT_LANES V within(V a, V low, V high) { return smaller(larger(a, low), high); }
 
   struct ValueAndSlope {
@@ -167,6 +188,7 @@ class TorusLanes {
     V t = within(vertex + (outside - vertex) * sqrt(depth / select(sum > V(0.0), sum, V(1.0))), low, high);
     V step_before = high - low;
     Mask active = wanted;
+    Mask quadratic = size_ < V(0.0);  // none: whether the step before was Newton's
     for (int i = 0; i < 200 && bits(active) != 0; ++i) {
       const ValueAndSlope at = distance(t);
       // At the low end the value is positive where it falls.
@@ -174,16 +196,21 @@ class TorusLanes {
       low = select(active & is_low, t, low);
       high = select(active & ~is_low, t, high);
       const V newton = at.value / select(at.slope == V(0.0), V(1e-300), at.slope);
-      const Mask exact = magnitude(newton) <= tolerance;
+      // Steps of Newton's shrink as their squares: the next one would be this one's cube by the square of the
+      // one before.
+      const V size = magnitude(newton);
+      const Mask exact =
+          (size <= tolerance) |
+          (quadratic & (size * size * size <= V(0.25) * tolerance * step_before * step_before));
       const V target = t - newton;
-      const Mask useful =
-          (target > low) & (target < high) & (V(2.0) * magnitude(newton) < magnitude(step_before));
+      const Mask useful = (target > low) & (target < high) & (V(2.0) * size < magnitude(step_before));
       const V bisected = low + V(0.5) * (high - low);
       const V next = select(exact, within(target, low, high), select(useful, target, bisected));
       const V step = select(useful, newton, V(0.5) * (high - low));
       const Mask done = exact | (magnitude(step) <= tolerance) | (next == t);
       step_before = select(active, step, step_before);
       t = select(active, next, t);
+      quadratic = useful;
       active = active & ~done;
     }
     return t;
@@ -193,18 +220,12 @@ class TorusLanes {
                                        0.038352908445762925, -0.008688352074050488};
 
   LaneVec3<V> p_, d_;
+  V centre_, shift_, per_length_, lambda_max_;
   V start_, major_, minor_, size_;
   V low_, high_, begin_;
   V cut_[3];
   V from_, to_, negative_;
   Mask falling_;
 };
-
-template <class V>
-void torus_roots(TorusLines& lines, std::size_t count, double major, double minor) {
-  for (std::size_t k = 0; k < count; k += V::width) {
-    TorusLanes<V>(lines, k, major, minor).first_root().store(lines.root + k);
-  }
-}
 
 }  // namespace backlight

@@ -298,10 +298,10 @@ void SheetShader::try_one_by_one(std::size_t light, const Occupant& occluder) {
     if (dark) p.lit[i] = 0.0;
   }
   if (together.count() == 0) return;
-  Hit blockers[sheet_size];
-  surfaces.first_crossings_of(occluder.surface, together.rays(), blockers);
+  bool blocked[sheet_size];
+  surfaces.blocked_by(occluder.surface, together.rays(), end, blocked);
   for (std::size_t i = 0; i < together.count(); ++i) {
-    if (blockers[i].lambda < end) p.lit[together.lane(i)] = 0.0;
+    if (blocked[i]) p.lit[together.lane(i)] = 0.0;
   }
 }
 

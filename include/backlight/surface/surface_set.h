@@ -119,6 +119,10 @@ class SurfaceSet {
   };
   void first_crossings_of(int surface, const Rays& rays, std::span<Hit> hits) const;
 
+  /// Whether one surface is met by each of many rays at a λ in the open interval (0, lambda_max): blocked()
+  /// of that surface.
+  void blocked_by(int surface, const Rays& rays, double lambda_max, std::span<bool> blocked) const;
+
   /// resolve() of the hits of one surface, one for each ray: array i of `rays` as above. u and v are 0 if
   /// they are not wanted.
   void resolve_all(std::span<const Hit> hits, const Rays& rays, bool with_texture_coordinates,
@@ -144,6 +148,8 @@ class SurfaceSet {
                     Hit& best) const;
   template <bool any>
   void search_tree(const RestRay& ray, double lambda_min, Hit& best) const;
+  static bool is_blocked_by(const PlacedSurface& surface, const RestRay& ray, double lambda_min,
+                            double lambda_max);
   [[nodiscard]] bool may_meet(const RestRay& ray, double lambda_min, double lambda_max,
                               std::size_t slot) const;
 

@@ -1,5 +1,5 @@
 // First roots of polynomials over lanes: those that they were made of, and the same bits for every width.
-#include "../../../src/surface/polynomial_lanes.h"
+#include "../../../src/surface/surface_kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ TEST_P(PolynomialRoots, AreTheFirstOnes) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     const Made made = products(GetParam(), seed);
     auto q = std::make_unique<PolynomialQuestions>(made.questions);
-    const PolynomialKernels kernels = polynomial_kernels_baseline(GetParam());
+    const PolynomialKernels kernels = baseline_surface_kernels().polynomials(GetParam());
     kernels.find_signs(*q, count);
     auto exists = std::make_unique<PolynomialQuestions>(*q);
     kernels.find_roots(*q, count, false);
@@ -104,7 +104,7 @@ TEST_P(PolynomialRoots, HaveTheSameBitsForEveryWidth) {
   if (!has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
   Made made = products(GetParam(), 77);
   auto narrow = std::make_unique<PolynomialQuestions>(made.questions);
-  const PolynomialKernels two = polynomial_kernels_baseline(GetParam());
+  const PolynomialKernels two = baseline_surface_kernels().polynomials(GetParam());
   two.find_signs(*narrow, count);
   two.find_roots(*narrow, count, false);
   const auto expect_same = [&](const PolynomialKernels& kernels) {
@@ -121,8 +121,8 @@ TEST_P(PolynomialRoots, HaveTheSameBitsForEveryWidth) {
       EXPECT_EQ(wide->pieces[i], narrow->pieces[i]) << i;
     }
   };
-  expect_same(polynomial_kernels_avx2(GetParam()));
-  if (has_good_avx512()) expect_same(polynomial_kernels_avx512(GetParam()));
+  expect_same(avx2_surface_kernels().polynomials(GetParam()));
+  if (has_good_avx512()) expect_same(avx512_surface_kernels().polynomials(GetParam()));
 #endif
 }
 
@@ -138,7 +138,7 @@ TEST(PolynomialRoots, OfADoubleRootAreUndecided) {
     q->polynomials.error[i] = 1e-16;
     q->polynomials.half[i] = 1.0;
   }
-  const PolynomialKernels kernels = polynomial_kernels_baseline(2);
+  const PolynomialKernels kernels = baseline_surface_kernels().polynomials(2);
   kernels.find_signs(*q, 8);
   EXPECT_EQ(q->sign[0], 1.0);
   kernels.find_roots(*q, 8, false);
@@ -150,7 +150,7 @@ TEST(PolynomialRoots, OfALineWithoutASignAreUndecided) {
   Made made = products(4, 1);
   auto& q = made.questions;
   std::fill_n(q.sign, count, 0.0);
-  polynomial_kernels_baseline(4).find_roots(q, count, false);
+  baseline_surface_kernels().polynomials(4).find_roots(q, count, false);
   for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(q.verdict[i], PolynomialQuestions::undecided);
 }
 
