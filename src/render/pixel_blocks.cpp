@@ -17,35 +17,37 @@ bool is_untouched(const std::uint8_t* done, int width) {
 
 }  // namespace
 
-void MissingPixels::add_block(const PixelBox& tile, int left, int top, const std::uint8_t* done, int width) {
+std::size_t MissingPixels::add_block(const PixelBox& tile, int left, int top, const std::uint8_t* done,
+                                     int width, std::size_t first) {
   const bool inside = left + block_size <= tile.x1 && top + block_size <= tile.y1;
-  const std::size_t first = pixels.size();
+  TilePixel* next = pixels.data() + first;
   if (inside && is_untouched(done, width)) {
     whole.push_back(first);
-    pixels.resize(first + block_pixels);
-    for (std::size_t i = 0; i < block_pixels; ++i) {
-      pixels[first + i] = {left + block_order[i].right, top + block_order[i].down};
-    }
-    return;
+    for (const auto [right, down] : block_order) *next++ = {left + right, top + down};
+    return first + block_pixels;
   }
   for (const auto [right, down] : block_order) {
     const int x = left + right;
     const int y = top + down;
-    if (x < tile.x1 && y < tile.y1 && done[down * width + right] == 0) pixels.push_back({x, y});
+    if (x < tile.x1 && y < tile.y1 && done[down * width + right] == 0) *next++ = {x, y};
   }
+  return static_cast<std::size_t>(next - pixels.data());
 }
 
 void MissingPixels::list(const PixelBox& tile, const ImageLayout& layout, const std::uint8_t* done) {
-  pixels.clear();
+  // As many as the tile has, and not cleared first.
+  pixels.resize(static_cast<std::size_t>(tile.width()) * static_cast<std::size_t>(tile.height()));
   whole.clear();
+  std::size_t count = 0;
   const PixelBox& window = layout.data;
   const int width = window.width();
   for (int top = tile.y0; top < tile.y1; top += block_size) {
     for (int left = tile.x0; left < tile.x1; left += block_size) {
       const std::ptrdiff_t at = std::ptrdiff_t{top - window.y0} * width + (left - window.x0);
-      add_block(tile, left, top, done + at, width);
+      count = add_block(tile, left, top, done + at, width, count);
     }
   }
+  pixels.resize(count);
 }
 
 }  // namespace backlight

@@ -37,7 +37,8 @@ struct MissingPixels {
   void list(const PixelBox& tile, const ImageLayout& layout, const std::uint8_t* done);
 
  private:
-  void add_block(const PixelBox& tile, int left, int top, const std::uint8_t* done, int width);
+  std::size_t add_block(const PixelBox& tile, int left, int top, const std::uint8_t* done, int width,
+                        std::size_t first);
 };
 
 }  // namespace backlight

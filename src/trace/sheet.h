@@ -195,13 +195,19 @@ struct LaneOccluder {
   double end = 1.0;              ///< of the segment to the light
 };
 
+/// How the points of a sheet reflect the light of one lamp.
 struct LaneReflection {
   LaneBrightness brightness;
   bool distant = false;
-  double gamma = 1.0;      ///< of the lamp relative to the surface
-  double specular = 0.0;   ///< k (n+2)/2π; 0: none
-  double shininess = 1.0;  ///< n
-  double lamp[3]{};        ///< its film colour
+  double gamma = 1.0;          ///< of the lamp relative to the surface
+  double specular = 0.0;       ///< k (n+2)/2π; 0: none
+  double shininess = 1.0;      ///< n
+  double lamp[3]{};            ///< its film colour
+  bool same_strength = false;  ///< at all points: `strength`, else PointSheet's
+  double strength = 0.0;
+  bool same_diffuse = false;  ///< at all points: `diffuse`, else PointSheet's
+  double diffuse[3]{};
+  const double* own = nullptr;  ///< the first lamp's light is added to this, else to the points' rgb
 };
 
 /// The kernels of one instruction set.
@@ -233,7 +239,8 @@ struct SheetKernels {
   std::uint64_t (*resolve)(const LaneFrame& frame, const LaneSurface& surface, PointSheet& points);
   /// What follows from points however found: `to_camera`, proper time, D, and the normal's side.
   void (*face)(const LaneFrame& frame, const double* error_bound, PointSheet& points);
-  void (*arrive)(const LaneLamp& lamp, PointSheet& points);
+  /// What of a lamp's light reaches the points, but for shadows. Bits: the lit ones.
+  std::uint64_t (*arrive)(const LaneLamp& lamp, PointSheet& points);
   /// The bundle of the lit rays from `first` to `last` (whole registers); false when there are none.
   bool (*light_bundle)(const LightRays& rays, int first, int last, Bundle& bundle);
   /// Unlights those from `first` to `last` that occluder `which` of the table surely shades: `time` is
@@ -247,6 +254,8 @@ struct SheetKernels {
   bool (*occlude)(const LaneOccluder& occluder, PointSheet& points);
   /// Irradiance and Phong's lobe of the lit points.
   void (*reflect)(const LaneReflection& reflection, PointSheet& points);
+  /// Both of these in one, without a word of what is between them.
+  void (*shine)(const LaneReflection& reflection, PointSheet& points);
   /// rgb += irradiance (diffuse/π + specular lamp) where lit.
   void (*add_light)(const LaneReflection& reflection, PointSheet& points);
   /// To the camera: rgb *= F.

@@ -315,15 +315,14 @@ struct KernelsOf {
       const V lambda = select(hit, V::load(rays.lambda + i), V(0.0));
       const V3 out = V3(lamp.frame.origin) + lambda * n.x - V3(lamp.position);
       const V size = length(out);
-      const V3 unit = out / size;
       if (axis == nullptr) {
         const Mask far = hit & (size > V(0.0));
         const V3 none{V(0.0), V(0.0), V(0.0)};
-        sum = sum + select(far, unit, none);
+        sum = sum + select(far, (V(1.0) / size) * out, none);
         continue;
       }
       const V time = V(lamp.time_offset) + lambda * -n.length - size;
-      const V cosine = dot(unit, a);
+      const V cosine = dot(out, a) / size;
       // Not a number (a point at the lamp itself) counts as every direction.
       least = select(hit, select(cosine >= least, least, select(cosine < least, cosine, V(-1.0))), least);
       first = select(hit & (time < first), time, first);
@@ -417,7 +416,8 @@ struct KernelsOf {
   }
 
   // Equations (10) and (12).
-  static void arrive(const LaneLamp& lamp, PointSheet& p) {
+  static std::uint64_t arrive(const LaneLamp& lamp, PointSheet& p) {
+    std::uint64_t all_lit = 0;
     for (int i = 0; i < p.padded; i += N) {
       const LaneNull<V> n = looking(lamp.frame, load3<V>(p.direction, i), p.light_delay);
       const V lambda = V::load(p.lambda + i);
@@ -443,7 +443,8 @@ struct KernelsOf {
       const V cosine = dot(load3<V>(p.normal, i), to_light);
       const Mask lit = (k.length > V(0.0)) & (cosine > V(0.0));
       select(lit, V(1.0), V(0.0)).store(p.lit + i);
-      store3(place, p.place, i);
+      all_lit |= static_cast<std::uint64_t>(bits(lit)) << i;
+      if (lamp.distant) store3(place, p.place, i);
       store3(way, p.way, i);
       way_length.store(p.way_length + i);
       store3(k.x, p.way_in_surface, i);
@@ -454,6 +455,7 @@ struct KernelsOf {
       (lamp.distant ? V(1.0) : inverse_length * inverse_length).store(p.inverse_square + i);
     }
     for (int i = p.count; i < p.padded; ++i) p.lit[i] = 0.0;
+    return p.count < 64 ? all_lit & ((std::uint64_t{1} << p.count) - 1) : all_lit;
   }
 
   static bool light_bundle(const LightRays& p, int begin_at, int end_at, Bundle& bundle) {
@@ -552,34 +554,59 @@ struct KernelsOf {
     return any;
   }
 
+  struct Reflected {
+    V irradiance, lobe;
+  };
+  static BACKLIGHT_LANES Reflected reflected(const LaneReflection& r, const PointSheet& p, int i) {
+    const V cosine = V::load(p.cosine + i);
+    const V factor = brightness_factor(r.brightness, V::load(p.lamp_doppler + i), r.gamma, !r.distant);
+    const V strength = r.same_strength ? V(r.strength) : V::load(p.strength + i);
+    const V irradiance = factor * strength * cosine * V::load(p.inverse_square + i);
+    V lobe = 0.0;
+    if (r.specular != 0.0) {
+      const V3 mirrored = V(2.0) * cosine * load3<V>(p.normal, i) - load3<V>(p.to_light, i);
+      const V alpha = dot(mirrored, load3<V>(p.to_camera, i));
+      const Mask shines = alpha > V(0.0);
+      if (bits(shines) != 0) {
+        lobe = select(shines, V(r.specular) * power(select(shines, alpha, V(1.0)), V(r.shininess)), V(0.0));
+      }
+    }
+    return {irradiance, lobe};
+  }
+
   static void reflect(const LaneReflection& r, PointSheet& p) {
     for (int i = 0; i < p.padded; i += N) {
-      const V cosine = V::load(p.cosine + i);
-      const V factor = brightness_factor(r.brightness, V::load(p.lamp_doppler + i), r.gamma, !r.distant);
-      (factor * V::load(p.strength + i) * cosine * V::load(p.inverse_square + i)).store(p.irradiance + i);
-      V lobe = 0.0;
-      if (r.specular != 0.0) {
-        const V3 mirrored = V(2.0) * cosine * load3<V>(p.normal, i) - load3<V>(p.to_light, i);
-        const V alpha = dot(mirrored, load3<V>(p.to_camera, i));
-        const Mask shines = alpha > V(0.0);
-        if (bits(shines) != 0) {
-          lobe = select(shines, V(r.specular) * power(select(shines, alpha, V(1.0)), V(r.shininess)), V(0.0));
-        }
+      if (bits(V::load(p.lit + i) > V(0.0)) == 0) continue;
+      const Reflected light = reflected(r, p, i);
+      light.irradiance.store(p.irradiance + i);
+      light.lobe.store(p.specular + i);
+    }
+  }
+
+  static BACKLIGHT_LANES void add_lanes(const LaneReflection& r, Reflected light, Mask lit, PointSheet& p,
+                                        int i) {
+    const V pi = 3.141592653589793;
+    const V3 diffuse = (r.same_diffuse ? V3(r.diffuse) : load3<V>(p.diffuse, i)) / pi;
+    const V3 sum = diffuse + light.lobe * V3(r.lamp);
+    const V3 before = r.own != nullptr ? V3{V(r.own[0]), V(r.own[1]), V(r.own[2])} : load3<V>(p.rgb, i);
+    store3(select(lit, before + light.irradiance * sum, before), p.rgb, i);
+  }
+
+  static void shine(const LaneReflection& r, PointSheet& p) {
+    for (int i = 0; i < p.padded; i += N) {
+      const Mask lit = V::load(p.lit + i) > V(0.0);
+      if (bits(lit) != 0) {
+        add_lanes(r, reflected(r, p, i), lit, p, i);
+      } else if (r.own != nullptr) {
+        store3(V3{V(r.own[0]), V(r.own[1]), V(r.own[2])}, p.rgb, i);
       }
-      lobe.store(p.specular + i);
     }
   }
 
   static void add_light(const LaneReflection& r, PointSheet& p) {
-    const V pi = 3.141592653589793;
     for (int i = 0; i < p.padded; i += N) {
       const Mask lit = V::load(p.lit + i) > V(0.0);
-      if (bits(lit) == 0) continue;
-      const V irradiance = V::load(p.irradiance + i);
-      const V3 diffuse = load3<V>(p.diffuse, i) / pi;
-      const V3 sum = diffuse + V::load(p.specular + i) * V3(r.lamp);
-      const V3 before = load3<V>(p.rgb, i);
-      store3(select(lit, before + irradiance * sum, before), p.rgb, i);
+      add_lanes(r, {V::load(p.irradiance + i), V::load(p.specular + i)}, lit, p, i);
     }
   }
 
@@ -591,9 +618,9 @@ struct KernelsOf {
   }
 
   static constexpr SheetKernels table(const char* name) {
-    return {name,    N,         look,    bundle, overlapping, overlapping_lamps, gather, inside, same,
-            nearest, in_frame,  resolve, face,   arrive,      light_bundle,      sift,   inward, occlude,
-            reflect, add_light, carry};
+    return {name,    N,        look,      bundle, overlapping, overlapping_lamps, gather, inside, same,
+            nearest, in_frame, resolve,   face,   arrive,      light_bundle,      sift,   inward, occlude,
+            reflect, shine,    add_light, carry};
   }
 };
 

@@ -31,10 +31,11 @@ void put(const Vec3& a, double (&to)[3][sheet_size], int lane) {
   for (int k = 0; k < 3; ++k) to[k][lane] = a[k];
 }
 
-int count_lit(const PointSheet& p) {
-  int count = 0;
-  for (int i = 0; i < p.count; ++i) count += p.lit[i] > 0.0 ? 1 : 0;
-  return count;
+std::uint64_t lit_bits(const PointSheet& p) {
+  std::uint64_t bits = 0;
+  for (int i = 0; i < p.count; ++i)
+    bits |= std::uint64_t{p.lit[i] > 0.0 ? 1U : 0U} << static_cast<unsigned>(i);
+  return bits;
 }
 
 }  // namespace
@@ -240,7 +241,7 @@ void SheetShader::fill_strength(const Light& light, std::size_t index) {
   PointSheet& p = work_.points;
   if (!light.flickers) {
     std::fill_n(p.strength, p.padded, light.strength);
-    if (light.strength == 0.0) std::fill_n(p.lit, p.padded, 0.0);
+    if (light.strength == 0.0 && light.kind != LightKind::ambient) std::fill_n(p.lit, p.padded, 0.0);
     return;
   }
   const double* time = light.kind == LightKind::ambient ? p.proper_time : p.emission_time;
@@ -252,13 +253,14 @@ void SheetShader::fill_strength(const Light& light, std::size_t index) {
   }
 }
 
-void SheetShader::fill_diffuse(std::size_t light, int index) {
+void SheetShader::fill_diffuse(std::size_t light, int index, LaneReflection& reflection) {
   PointSheet& p = work_.points;
   const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
   const RestColours& colours = tracer_.rest_colours();
   if (!material.texture && !material.checker) {
     const LinearRgb& rgb = colours.under(light, index, 0);
-    for (int k = 0; k < 3; ++k) std::fill_n(p.diffuse[k], p.padded, rgb[k]);
+    reflection.same_diffuse = true;
+    for (int k = 0; k < 3; ++k) reflection.diffuse[k] = rgb[k];
     return;
   }
   for (int i = 0; i < p.count; ++i) {
@@ -431,51 +433,78 @@ void SheetShader::shadow_of_distant(std::size_t light) {
   }
 }
 
-// One lamp's light on the points, up to its irradiance; false: none of them is lit.
-bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const Material& material,
+// One lamp's light on the points, as far as shadows, and how they reflect it; false: none of them is lit.
+bool SheetShader::light_reaches(std::size_t index, const Effects& effects, const Material& material,
                                 LaneReflection& reflection) {
   PointSheet& p = work_.points;
   const Light& light = tracer_.scene().lights[index];
-  for (int k = 0; k < 3; ++k) reflection.lamp[k] = light.colour.rgb[k];
-  if (light.kind == LightKind::ambient) {
-    std::fill_n(p.lit, p.count, 1.0);
-    std::fill(p.lit + p.count, p.lit + p.padded, 0.0);
+  std::uint64_t lit = sheets_.kernels().arrive(lane_lamp(index, occupant_->frame), p);
+  if (light.flickers || light.strength == 0.0) {
     fill_strength(light, index);
-    for (int i = 0; i < p.padded; ++i) {
-      p.irradiance[i] = pi * p.strength[i];
-      p.specular[i] = 0.0;
-      p.lamp_doppler[i] = 1.0;
-    }
-    return true;
+    lit = lit_bits(p);
   }
-  sheets_.kernels().arrive(lane_lamp(index, occupant_->frame), p);
-  fill_strength(light, index);
-  const int lit = count_lit(p);
   if (lit == 0) return false;
   if (light.shadows) {
-    scratch_.counts.shadow += static_cast<std::uint64_t>(lit);
+    scratch_.counts.shadow += static_cast<std::uint64_t>(__builtin_popcountll(lit));
     shadow(index);
   }
+  reflection.same_strength = !light.flickers;
+  reflection.strength = light.strength;
   reflection.brightness = lane_brightness(effects.brightness);
   reflection.distant = light.kind == LightKind::distant;
   reflection.gamma = tracer_.hub().lights[index].to_frame[frame()].gamma();
   reflection.specular =
       material.specular <= 0.0 ? 0.0 : material.specular * (material.shininess + 2.0) / (2.0 * pi);
   reflection.shininess = material.shininess;
-  sheets_.kernels().reflect(reflection, p);
+  return true;
+}
+
+// The same of a light that comes from everywhere, with its irradiance.
+void SheetShader::ambient_arrives(std::size_t index) {
+  PointSheet& p = work_.points;
+  std::fill_n(p.lit, p.count, 1.0);
+  std::fill(p.lit + p.count, p.lit + p.padded, 0.0);
+  fill_strength(tracer_.scene().lights[index], index);
+  for (int i = 0; i < p.padded; ++i) {
+    p.irradiance[i] = pi * p.strength[i];
+    p.specular[i] = 0.0;
+    p.lamp_doppler[i] = 1.0;
+  }
+}
+
+// One lamp's light on the points, up to its irradiance; false: none of them is lit.
+bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const Material& material,
+                                LaneReflection& reflection) {
+  if (tracer_.scene().lights[index].kind == LightKind::ambient) {
+    ambient_arrives(index);
+    return true;
+  }
+  if (!light_reaches(index, effects, material, reflection)) return false;
+  sheets_.kernels().reflect(reflection, work_.points);
   return true;
 }
 
 void SheetShader::light_rgb(const Material& material, int material_index, const Effects& effects) {
   PointSheet& p = work_.points;
   const LinearRgb own = material.emission ? material.emission->rgb : LinearRgb{0.0};
-  for (int k = 0; k < 3; ++k) std::fill_n(p.rgb[k], p.padded, own[k]);
-  for (std::size_t i = 0; i < tracer_.scene().lights.size(); ++i) {
+  const double own_rgb[3] = {own.r, own.g, own.b};
+  bool first = true;
+  const std::vector<Light>& lights = tracer_.scene().lights;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const bool ambient = lights[i].kind == LightKind::ambient;
     LaneReflection reflection;
-    if (!light_arrives(i, effects, material, reflection)) continue;
-    fill_diffuse(i, material_index);
-    sheets_.kernels().add_light(reflection, p);
+    for (int k = 0; k < 3; ++k) reflection.lamp[k] = lights[i].colour.rgb[k];
+    if (ambient) {
+      ambient_arrives(i);
+    } else if (!light_reaches(i, effects, material, reflection)) {
+      continue;
+    }
+    fill_diffuse(i, material_index, reflection);
+    if (first) reflection.own = own_rgb;
+    first = false;
+    ambient ? sheets_.kernels().add_light(reflection, p) : sheets_.kernels().shine(reflection, p);
   }
+  for (int k = 0; k < 3 && first; ++k) std::fill_n(p.rgb[k], p.padded, own[k]);
   const double gamma = tracer_.hub().frames[frame()].from_camera.gamma();
   sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, p);
 }

@@ -100,7 +100,7 @@ class SheetShader {
   int resolve_one_by_one(const Occupant& occupant);
   [[nodiscard]] LaneLamp lane_lamp(std::size_t light, int frame) const;
   void fill_strength(const Light& light, std::size_t index);
-  void fill_diffuse(std::size_t light, int material);
+  void fill_diffuse(std::size_t light, int material, LaneReflection& reflection);
   const LampTable& occluders_of_tile(std::size_t light);
   void list_for_tile(std::size_t light, LampTable& list) const;
   [[nodiscard]] bool in_packets(std::size_t light) const;
@@ -113,6 +113,9 @@ class SheetShader {
   [[nodiscard]] bool is_own(const Occupant& occluder) const;
   void shadow_of_distant(std::size_t light);
   void light_rgb(const Material& material, int material_index, const Effects& effects);
+  bool light_reaches(std::size_t light, const Effects& effects, const Material& material,
+                     LaneReflection& reflection);
+  void ambient_arrives(std::size_t light);
   bool light_arrives(std::size_t light, const Effects& effects, const Material& material,
                      LaneReflection& reflection);
   void light_spectra(const Material& material, const Effects& effects);
