@@ -161,15 +161,25 @@ std::size_t ShadowPackets::cut(std::size_t first, std::size_t last) const {
   return static_cast<std::size_t>(above - begin);
 }
 
-bool ShadowPackets::list(const SheetKernels& kernels, const LampTable& from, std::size_t first_run,
-                         std::size_t last_run, LampTable& to, double& time) {
+// The occluders of a packet, or null: there are none. Where a sample says that most would stay in the list,
+// none is made: many are as many numbers as the caches hold.
+const LampTable* ShadowPackets::list(const SheetKernels& kernels, const LampTable& from,
+                                     std::size_t first_run, std::size_t last_run, LampTable& to,
+                                     double& time) {
+  constexpr int sample = 256;
   const std::size_t first = runs_[first_run].first;
   const std::size_t end = last_run < runs_.size() ? runs_[last_run].first : rays_.count;
   Bundle bundle;
-  if (!kernels.light_bundle(rays_.view(first), 0, static_cast<int>(end - first), bundle)) return false;
+  if (!kernels.light_bundle(rays_.view(first), 0, static_cast<int>(end - first), bundle)) return nullptr;
   time = bundle.time;
+  if (from.count > 8 * sample && last_run - first_run > 1) {
+    LampTable some = from;
+    some.count = sample;
+    kernels.overlapping_lamps(some, bundle, to);
+    if (to.count > sample / 4 * 3) return &from;
+  }
   kernels.overlapping_lamps(from, bundle, to);
-  return to.count > 0;
+  return to.count > 0 ? &to : nullptr;
 }
 
 void ShadowPackets::sift(const SheetKernels& kernels, const LampTable& occluders,
@@ -190,8 +200,10 @@ void ShadowPackets::sift(const SheetKernels& kernels, const LampTable& occluders
 void ShadowPackets::sift_packet(const SheetKernels& kernels, const LampTable& from, std::size_t first,
                                 std::size_t last, std::span<LampStore> lists) {
   double time = 0.0;
-  LampTable& near = lists[0].table();
-  if (first == last || !list(kernels, from, first, last, near, time)) return;
+  if (first == last) return;
+  const LampTable* const listed = list(kernels, from, first, last, lists[0].table(), time);
+  if (listed == nullptr) return;
+  const LampTable& near = *listed;
   if (near.count <= few_occluders || last - first == 1 || lists.size() == 1) {
     for (std::size_t run = first; run < last; ++run) sift_run(kernels, near, time, runs_[run]);
     return;
@@ -201,7 +213,7 @@ void ShadowPackets::sift_packet(const SheetKernels& kernels, const LampTable& fr
   const std::size_t three_quarters = last - middle > 1 ? cut(middle, last) : last;
   const std::size_t cuts[] = {first, quarter, middle, three_quarters, last};
   for (std::size_t i = 0; i + 1 < std::size(cuts); ++i) {
-    sift_packet(kernels, near, cuts[i], cuts[i + 1], lists.subspan(1));
+    sift_packet(kernels, near, cuts[i], cuts[i + 1], lists.subspan(listed == &from ? 0 : 1));
   }
 }
 

@@ -61,8 +61,8 @@ class ShadowPackets {
   [[nodiscard]] std::size_t cut(std::size_t first, std::size_t last) const;
   void sift_packet(const SheetKernels& kernels, const LampTable& from, std::size_t first, std::size_t last,
                    std::span<LampStore> lists);
-  bool list(const SheetKernels& kernels, const LampTable& from, std::size_t first_run, std::size_t last_run,
-            LampTable& to, double& time);
+  const LampTable* list(const SheetKernels& kernels, const LampTable& from, std::size_t first_run,
+                        std::size_t last_run, LampTable& to, double& time);
   void sift_run(const SheetKernels& kernels, const LampTable& near, double time, const Run& run);
   void note(const Run& run, std::uint64_t rays, int who);
 

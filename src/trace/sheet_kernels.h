@@ -218,9 +218,10 @@ struct KernelsOf {
     const Mask beyond = ahead - shift - noise - radius > b.reach * (d + spread);
     const Mask narrow = angle < V(0.5);
     const Mask meets = ~(narrow & (aside | behind | beyond));
-    if (bits(narrow) == (1U << N) - 1U) return meets;
+    const V loose = radius + speed * tau;
+    if (bits(~narrow & (square > loose * loose)) == 0) return meets;
     if (!moving) w = {zero, zero, zero};
-    return meets & (narrow | may_shade_at_all(b, w, x, gamma, turn, radius + speed * tau));
+    return meets & (narrow | may_shade_at_all(b, w, x, gamma, turn, loose));
   }
 
   static void overlapping_lamps(const LampTable& from, const Bundle& bundle, LampTable& to) {
@@ -233,10 +234,12 @@ struct KernelsOf {
           bits(from.moving ? may_shade<true>(from, b, i) : may_shade<false>(from, b, i)) & all;
       if (hit == 0) continue;
       const int j = to.count;
-      for (int a = 0; a < 3; ++a) {
-        store_kept(V::load(from.celerity[a] + i), hit, to.celerity[a] + j);
-        store_kept(V::load(from.place[a] + i), hit, to.place[a] + j);
-      }
+      store_kept(V::load(from.celerity[0] + i), hit, to.celerity[0] + j);
+      store_kept(V::load(from.celerity[1] + i), hit, to.celerity[1] + j);
+      store_kept(V::load(from.celerity[2] + i), hit, to.celerity[2] + j);
+      store_kept(V::load(from.place[0] + i), hit, to.place[0] + j);
+      store_kept(V::load(from.place[1] + i), hit, to.place[1] + j);
+      store_kept(V::load(from.place[2] + i), hit, to.place[2] + j);
       store_kept(V::load(from.gamma + i), hit, to.gamma + j);
       store_kept(V::load(from.inverse_gamma_plus_one + i), hit, to.inverse_gamma_plus_one + j);
       store_kept(V::load(from.speed + i), hit, to.speed + j);
