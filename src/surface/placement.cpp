@@ -19,6 +19,7 @@ SineCosine of_degrees(double degrees) {
   const double rest = (turn - 90.0 * quarter) * (std::numbers::pi / 180.0);
   const double sine = std::sin(rest);
   const double cosine = std::cos(rest);
+  if (!std::isfinite(quarter)) return {sine, cosine};  // neither is a number
   switch ((static_cast<int>(quarter) + 4) % 4) {
     case 1:
       return {cosine, -sine};
