@@ -85,6 +85,17 @@ struct LinePlacement {
   bool aligned;
 };
 
+inline LinePlacement line_placement(const PlacedSurface& surface) {
+  LinePlacement result;
+  result.aligned = surface.aligned;
+  for (int c = 0; c < 3; ++c) {
+    result.centre[c] = surface.placement.position()[c];
+    for (int r = 0; r < 3; ++r)
+      result.local_from_rest.column[c][r] = surface.placement.local_from_rest()[c][r];
+  }
+  return result;
+}
+
 /// local_line() of the rays of `lines`, a padded number of them.
 template <class V>
 class LocalLineLanes {

@@ -11,17 +11,6 @@
 namespace backlight {
 namespace {
 
-LinePlacement line_placement(const PlacedSurface& surface) {
-  LinePlacement result;
-  result.aligned = surface.aligned;
-  for (int c = 0; c < 3; ++c) {
-    result.centre[c] = surface.placement.position()[c];
-    for (int r = 0; r < 3; ++r)
-      result.local_from_rest.column[c][r] = surface.placement.local_from_rest()[c][r];
-  }
-  return result;
-}
-
 /// The rays from `first` on, as many as there is room for, brought next to a surface.
 const LocalLines& lines_of(const PlacedSurface& surface, const SurfaceSet::Rays& rays, std::size_t first) {
   thread_local LocalLines lines;

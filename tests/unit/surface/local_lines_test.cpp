@@ -12,18 +12,6 @@
 namespace backlight {
 namespace {
 
-LinePlacement lanes_of(const PlacedSurface& surface) {
-  LinePlacement lanes;
-  lanes.aligned = surface.aligned;
-  for (int c = 0; c < 3; ++c) {
-    lanes.centre[c] = surface.placement.position()[c];
-    for (int r = 0; r < 3; ++r) {
-      lanes.local_from_rest.column[c][r] = surface.placement.local_from_rest()[c][r];
-    }
-  }
-  return lanes;
-}
-
 void expect_the_bits_of_one(const SurfaceKernels& kernels, const PlacedSurface& surface) {
   std::mt19937_64 generator(31);
   std::normal_distribution<double> normal;
@@ -37,7 +25,7 @@ void expect_the_bits_of_one(const SurfaceKernels& kernels, const PlacedSurface& 
     lines->time[i] = normal(generator);
     lines->rate[i] = normal(generator);
   }
-  kernels.local_lines(lanes_of(surface), *lines);
+  kernels.local_lines(line_placement(surface), *lines);
   for (std::size_t i = 0; i < lines->count; ++i) {
     const RestRay ray({lines->origin[0][i], lines->origin[1][i], lines->origin[2][i]},
                       {lines->along[0][i], lines->along[1][i], lines->along[2][i]},
