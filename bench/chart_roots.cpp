@@ -194,8 +194,15 @@ Own own(const std::string& method, const Shape& shape) {
 std::vector<Own> own_methods(const KnownSurface& surface) {
   const auto parsed = Expression::parse(surface.formula.backlight, {"x", "y", "z", "t"});
   const auto f = std::make_shared<const ImplicitFormula>(std::get<Expression>(parsed));
-  const Shape shape = implicit(f, Vec3(-surface.half), Vec3(surface.half));
-  std::vector<Own> all{own("Backlight: " + std::string(name(root_finder(shape))), shape)};
+  const Vec3 high(surface.half), low = -high;
+  const RootFinder chosen = root_finder(implicit(f, low, high));
+  std::vector<Own> all;
+  for (const RootFinder finder : {RootFinder::interval, RootFinder::affine, RootFinder::polynomial}) {
+    if (finder == RootFinder::polynomial && !f->program().degree()) continue;
+    const Shape shape = implicit(f, low, high, {.finder = finder});
+    const std::string mark = finder == chosen ? " (chosen)" : "";
+    all.push_back(own("Backlight: " + std::string(name(finder)) + mark, shape));
+  }
   if (surface.closed_form == 1) all.push_back(own("Backlight: torus", torus(1.0, 0.3)));
   if (surface.closed_form == 2) all.push_back(own("Backlight: sphere", sphere(1.0)));
   return all;

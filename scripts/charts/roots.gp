@@ -20,7 +20,7 @@ wrong(i) = (strcol(1) eq name ? column(6) + column(7) : 0)
 at(text) = (text eq "nan" || text eq "-nan" ? 1.5 : floored(real(text), 1e-17))
 begins(a, b) = (strlen(a) >= strlen(b) && a[1:strlen(b)] eq b)
 is(method) = (strcol(1) eq name && strcol(2) eq method)
-own_search(m) = (m eq "Backlight: interval + derivative" || m eq "Backlight: reduced affine")
+own(m, finder) = begins(m, "Backlight: ".finder)
 own_closed(m) = (m eq "Backlight: torus" || m eq "Backlight: sphere" || m eq "Backlight: quartic")
 iso(m) = begins(m, "POV-Ray: isosurface 1")
 do for [i=1:8] {
@@ -37,13 +37,17 @@ do for [i=1:8] {
     data using (is("POV-Ray: torus") || is("POV-Ray: sphere") ? at(strcol(4)) : NaN):3 with points pt 13 ps 1.9 lc rgb amber notitle, \
     data using (is("POV-Ray: torus sturm") ? at(strcol(4)) : NaN):3 with points pt 12 ps 1.9 lw 2 lc rgb amber notitle, \
     data using (is("64 samples and bisection") ? at(strcol(4)) : NaN):3 with points pt 2 ps 1.5 lw 2 lc rgb grey notitle, \
-    data using (strcol(1) eq name && own_search(strcol(2)) ? at(strcol(4)) : NaN):3 with points pt 7 ps 2.1 lc rgb blue notitle, \
+    data using (strcol(1) eq name && own(strcol(2), "interval") ? at(strcol(4)) : NaN):3 with points pt 6 ps 2.1 lw 2 lc rgb blue notitle, \
+    data using (strcol(1) eq name && own(strcol(2), "reduced affine") ? at(strcol(4)) : NaN):3 with points pt 10 ps 2.1 lw 2 lc rgb blue notitle, \
+    data using (strcol(1) eq name && own(strcol(2), "polynomial") ? at(strcol(4)) : NaN):3 with points pt 12 ps 2.1 lw 2 lc rgb blue notitle, \
+    data using (strcol(1) eq name && strstrt(strcol(2), "(chosen)") > 0 ? at(strcol(4)) : NaN):3 with points pt 7 ps 0.9 lc rgb blue notitle, \
     data using (strcol(1) eq name && own_closed(strcol(2)) ? at(strcol(4)) : NaN):3 with points pt 15 ps 2.1 lc rgb sky notitle
 }
 unset title; unset xlabel; unset ylabel; unset tics; unset border; unset grid
 unset logscale; set xrange [0:1]; set yrange [0:1]
 set key at graph 0.0,0.95 left top Left reverse font ",13" spacing 1.5
-plot NaN with points pt 7 ps 2 lc rgb blue title "Backlight, formula: proven search", NaN with points pt 15 ps 2 lc rgb sky title "Backlight, sphere and torus shapes", \
+plot NaN with points pt 6 ps 2 lw 2 lc rgb blue title "Backlight, formula: intervals and slopes", NaN with points pt 10 ps 2 lw 2 lc rgb blue title "Backlight, formula: reduced affine forms", \
+  NaN with points pt 12 ps 2 lw 2 lc rgb blue title "Backlight, formula: polynomial along the ray", NaN with points pt 7 ps 0.9 lc rgb blue title "the one of these that is chosen", NaN with points pt 15 ps 2 lc rgb sky title "Backlight, sphere and torus shapes", \
   NaN with points pt 5 ps 1.5 lc rgb orange title "POV-Ray polynomial", NaN with points pt 4 ps 1.5 lw 2 lc rgb orange title "POV-Ray polynomial sturm", \
   NaN with points pt 13 ps 1.9 lc rgb amber title "POV-Ray sphere, torus", NaN with points pt 12 ps 1.9 lw 2 lc rgb amber title "POV-Ray torus sturm", \
   NaN with points pt 9 ps 1.6 lc rgb green title "POV-Ray isosurface, by its accuracy", NaN with points pt 8 ps 1.6 lw 1.5 lc rgb green title "POV-Ray isosurface, gradient not told", \

@@ -1,4 +1,4 @@
-# Chart (d): error against time, uniform samples and adaptive ones, each figure. A red ring: the error is more than twice what was asked for.
+# Chart (d): error against time, uniform samples and adaptive ones, each figure. A red ring: the error is more than what was asked for.
 set terminal pngcairo size 1500,1500
 set output folder."/sampling.png"
 data = folder."/dial.csv"
@@ -15,6 +15,6 @@ do for [i=1:words(scenes)] {
   if (i == 1) { set key left bottom } else { unset key }
   plot data using (strcol(1) eq name && strcol(2) eq "uniform" ? column(4) : NaN):(floored(column(6), 1e-6)) with linespoints pt 5 ps 1.1 lw 1.8 lc rgb orange title "uniform", \
     data using (strcol(1) eq name && strcol(2) eq "tolerance" ? column(4) : NaN):(floored(column(6), 1e-6)) with linespoints pt 7 ps 1.1 lw 1.8 lc rgb blue title "adaptive, by tolerance", \
-    data using (strcol(1) eq name && strcol(2) eq "tolerance" && column(6) > 2*column(3) ? column(4) : NaN):6 with points pt 6 ps 2.6 lw 1.6 lc rgb red title "misses what was asked twice over"
+    data using (strcol(1) eq name && strcol(2) eq "tolerance" && column(6) > column(3) ? column(4) : NaN):6 with points pt 6 ps 2.6 lw 1.6 lc rgb red title "misses what was asked for"
 }
 unset multiplot

@@ -89,8 +89,9 @@ struct ImageTracing::Parts {
         stop(the_stop),
         progress(the_progress),
         grid(scene, settings),
-        tracer(scene, settings.wavelengths) {
-    if (settings.path == RayPath::sheets && SheetTracer::can_trace(scene)) {
+        tracer(scene, settings.wavelengths, settings.pieces) {
+    const bool in_sheets = settings.path == RayPath::sheets && settings.pieces.retarded_shadows;
+    if (in_sheets && SheetTracer::can_trace(scene)) {
       sheets.emplace(tracer, settings.instructions);
     }
     const SheetTracer* in_use = sheets ? &*sheets : nullptr;

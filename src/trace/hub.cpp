@@ -1,48 +1,54 @@
 #include "backlight/trace/hub.h"
 
 #include <cmath>
+#include <limits>
 
 namespace backlight {
 namespace {
 
-FrameView view_of(const SceneFrame& frame, const CameraView& camera) {
+FrameView view_of(const SceneFrame& frame, const CameraView& camera, double robust_from) {
   const ExtendedEvent event = to_frame(frame.motion, camera.event);
   FrameView view;
-  view.from_camera = relative_transform<Rest, Camera>(frame.motion.celerity, camera.celerity);
+  view.from_camera = relative_transform<Rest, Camera>(frame.motion.celerity, camera.celerity, robust_from);
   view.camera_event = {double(event.t), event.x.rounded()};
   view.scene = &frame;
   const BoundingSphere bounds = frame.surfaces->bounds();
-  if (view.from_camera.gamma() > robust_gamma && bounds.radius >= 0.0 && std::isfinite(bounds.radius)) {
+  if (view.from_camera.gamma() > robust_from && bounds.radius >= 0.0 && std::isfinite(bounds.radius)) {
     view.far = std::make_shared<const FarView>(
         FarView{ExtendedTransform(frame.motion.celerity, camera.celerity), event, bounds});
   }
   return view;
 }
 
-LightView view_of(const Light& light, const Scene& scene) {
+LightView view_of(const Light& light, const Scene& scene, double robust_from) {
   const ExtendedVec3& own = scene.frames[static_cast<std::size_t>(light.frame)].motion.celerity;
   LightView view;
   view.light = &light;
   view.to_frame.reserve(scene.frames.size());
   for (const SceneFrame& frame : scene.frames) {
-    view.to_frame.push_back(relative_transform<Rest, Source>(frame.motion.celerity, own));
+    view.to_frame.push_back(relative_transform<Rest, Source>(frame.motion.celerity, own, robust_from));
   }
   return view;
 }
 
 }  // namespace
 
-Hub make_hub(const Scene& scene) {
+Hub make_hub(const Scene& scene, const ModelPieces& pieces) {
+  const double robust_from =
+      pieces.robust_arithmetic ? robust_gamma : std::numeric_limits<double>::infinity();
   Hub hub;
   hub.frames.reserve(scene.frames.size());
   for (const SceneFrame& frame : scene.frames) {
-    hub.frames.push_back(view_of(frame, scene.camera));
+    hub.frames.push_back(view_of(frame, scene.camera, robust_from));
     if (frame.surfaces->size() > 0) hub.occupied.push_back(static_cast<int>(hub.frames.size()) - 1);
   }
   hub.lights.reserve(scene.lights.size());
-  for (const Light& light : scene.lights) hub.lights.push_back(view_of(light, scene));
+  for (const Light& light : scene.lights) {
+    hub.lights.push_back(view_of(light, scene, robust_from));
+    hub.lights.back().retarded_shadows = pieces.retarded_shadows;
+  }
   const ExtendedVec3& sky = scene.frames[static_cast<std::size_t>(scene.sky.frame)].motion.celerity;
-  hub.camera_from_sky = relative_transform<Camera, Rest>(scene.camera.celerity, sky);
+  hub.camera_from_sky = relative_transform<Camera, Rest>(scene.camera.celerity, sky, robust_from);
   return hub;
 }
 

@@ -59,6 +59,11 @@ std::optional<Arrival> arrival(RayInFrames& rays, const SeenPoint& point, const 
   a.segment.start_in_surface_frame = point.surface.position + point.surface.error_bound * point.normal;
   a.segment.direction_in_surface_frame = k.x;
   a.segment.clock_in_surface_frame = {point.proper_time, -k.length};
+  if (!view.retarded_shadows) {
+    const Displacement<Rest> now = to_surface(Displacement<Source>{0.0, a.segment.direction.x});
+    a.segment.direction_in_surface_frame = now.x;
+    a.segment.clock_in_surface_frame = {point.proper_time, now.t};
+  }
   return a;
 }
 

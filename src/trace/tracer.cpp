@@ -36,9 +36,9 @@ bool any_without_shift(const Scene& scene) {
 
 }  // namespace
 
-Tracer::Tracer(const Scene& scene, int wavelengths)
+Tracer::Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces)
     : scene_(&scene),
-      hub_(make_hub(scene)),
+      hub_(make_hub(scene, pieces)),
       wavelengths_(wavelength_set(wavelengths > 0 ? wavelengths : default_wavelength_count)),
       spectral_(wavelengths > 0),
       stars_(star_images(scene, hub_, wavelengths_)) {

@@ -42,6 +42,11 @@ bool is_shadowed_in(int frame, const Hub& hub, RayInFrames& rays, const FirstHit
                             segment.end, segment.clock_in_surface_frame);
   }
   const Event<Rest> start = rays.in(frame).at(hit.lambda);
+  if (!light.retarded_shadows) {
+    const Displacement<Rest> now =
+        light.to_frame[static_cast<std::size_t>(frame)](Displacement<Source>{0.0, segment.direction.x});
+    return surfaces.blocked(start.x, now.x, 0.0, segment.end, {start.t, now.t});
+  }
   const NullDirection<Rest> direction = light.to_frame[static_cast<std::size_t>(frame)](segment.direction);
   return surfaces.blocked(start.x, direction.x, 0.0, segment.end, {start.t, -direction.length});
 }

@@ -25,6 +25,7 @@ Rendering rendered(std::optional<Scene> scene, const Diagnostics& diagnostics, c
   settings.wavelengths = choices.wavelengths.value_or(needs_within_tolerance(*scene).wavelengths);
   settings.path = choices.path;
   settings.instructions = choices.instructions;
+  settings.pieces = choices.pieces;
   const std::atomic<bool> stop{false};
   std::optional<RenderedImage> result = render_image(*scene, settings, stop, nullptr);
   return {std::move(*scene), std::move(result->image), result->statistics};

@@ -41,6 +41,7 @@ struct RenderChoices {
   std::vector<std::string> overrides;
   RayPath path = RayPath::sheets;
   InstructionSet instructions = InstructionSet::widest;
+  ModelPieces pieces;
 };
 
 /// Renders a scene given as text. Throws std::runtime_error with the diagnostics when it is wrong.

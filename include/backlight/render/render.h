@@ -28,6 +28,7 @@ struct RenderSettings {
   std::int64_t image_number = 1;  ///< of the animation: the sample positions depend on it
   RayPath path = RayPath::sheets;
   InstructionSet instructions = InstructionSet::widest;  ///< of sheets
+  ModelPieces pieces;  ///< without retarded shadows, rays go one by one. For measurements
 };
 
 /// The samples that the pixels got. (Those around a tile, which only help to choose, count as rays alone.)

@@ -78,7 +78,8 @@ class LorentzTransform {
   [[nodiscard]] bool is_identity() const { return identity_; }
 
   template <class T, class F>
-  friend LorentzTransform<T, F> relative_transform(const ExtendedVec3& to, const ExtendedVec3& from);
+  friend LorentzTransform<T, F> relative_transform(const ExtendedVec3& to, const ExtendedVec3& from,
+                                                   double robust_from);
 
  private:
   [[nodiscard]] NullDirection<To> standard(const NullDirection<From>& n) const {
@@ -132,8 +133,10 @@ Vec3 accurate_cross(const Vec3& a, const Vec3& b);
 inline constexpr double robust_gamma = 30.0;
 
 /// The transformation from the frame of celerity `from` to that of celerity `to` (both of the world).
+/// `robust_from`: the relative γ above which it is robust.
 template <class To, class From>
-LorentzTransform<To, From> relative_transform(const ExtendedVec3& to, const ExtendedVec3& from) {
+LorentzTransform<To, From> relative_transform(const ExtendedVec3& to, const ExtendedVec3& from,
+                                              double robust_from = robust_gamma) {
   const RelativeMotion motion = relative_motion(to, from);
   LorentzTransform<To, From> t;
   t.celerity_ = motion.celerity;
@@ -143,7 +146,7 @@ LorentzTransform<To, From> relative_transform(const ExtendedVec3& to, const Exte
   t.rotation_ = motion.rotation;
   t.identity_ = motion.identity;
   t.rotated_ = motion.rotated;
-  t.robust_ = motion.gamma > robust_gamma;
+  t.robust_ = motion.gamma > robust_from;
   return t;
 }
 

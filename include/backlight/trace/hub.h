@@ -30,10 +30,21 @@ struct FrameView {
   std::shared_ptr<const FarView> far;
 };
 
+/// Pieces of the model that are left out for nothing but to measure what they are for, and cost
+/// (docs/speed-accuracy.md).
+struct ModelPieces {
+  /// False: a light's shadows are those of one moment of its own frame, as if light took no time to the
+  /// surface.
+  bool retarded_shadows = true;
+  /// False: frames of large γ are treated as all others (spacetime/transform.h).
+  bool robust_arithmetic = true;
+};
+
 /// One light's rest frame, and the way from it to every frame of the scene.
 struct LightView {
   const Light* light = nullptr;
   std::vector<LorentzTransform<Rest, Source>> to_frame;  ///< by frame index
+  bool retarded_shadows = true;                          ///< as of ModelPieces
 };
 
 /// All of them, for one camera event.
@@ -45,6 +56,6 @@ struct Hub {
 };
 
 /// Composes the hub in extended precision.
-Hub make_hub(const Scene& scene);
+Hub make_hub(const Scene& scene, const ModelPieces& pieces = {});
 
 }  // namespace backlight

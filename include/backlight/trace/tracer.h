@@ -28,7 +28,7 @@ class Tracer {
  public:
   /// `wavelengths`: size of the spectral quadrature, or 0 when no colour is shifted anywhere in the image.
   /// The scene must outlive the tracer.
-  Tracer(const Scene& scene, int wavelengths);
+  Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces = {});
 
   [[nodiscard]] Scratch make_scratch(InstructionSet set = InstructionSet::widest) const;
 
