@@ -103,6 +103,7 @@ WavelengthSet::WavelengthSet(int count) {
     green_[i] /= white.y;
     blue_[i] /= white.z;
   }
+  daylight_ = std::make_shared<const ShiftedDaylight>(nm_, red_, green_, blue_);
 }
 
 const WavelengthSet& wavelength_set(int count) {

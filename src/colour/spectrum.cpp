@@ -171,6 +171,10 @@ bool Spectrum::is_d65_shaped() const {
   return form_.scale == 0.0 || form_.kind == Kind::d65;
 }
 
+std::optional<double> Spectrum::share_of_d65() const {
+  return form_.kind == Kind::d65 ? std::optional(form_.scale) : std::nullopt;
+}
+
 LinearRgb film_colour(const Spectrum& emission) {
   return sum_over_film(emission, nullptr);
 }

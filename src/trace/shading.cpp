@@ -88,7 +88,7 @@ LinearRgb shade_shifted(const ShadingContext& context, const SeenPoint& point, c
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
   const WavelengthSet& set = *context.wavelengths;
   LinearRgb sum = emitted_colour(material, set, s);
-  const std::optional<double> grey = fill_reflectance(material, point.surface.u, point.surface.v, s);
+  const std::optional<double> grey = fill_reflectance(material, point.surface.u, point.surface.v, set, s);
   for_each_lamp(context, point, effects, material, s,
                 [&](std::size_t light, double irradiance, double specular, const Arrival& a) {
                   const LampColours lamp =

@@ -17,22 +17,26 @@ LinearRgb texture_reflectance(const Material& material, double u, double v);
 /// Strength of a lamp at its own time `own_time` (times c); a formula below zero means that the lamp is off.
 double strength_at(const Light& light, double own_time, double c, std::vector<double>& variables);
 
-// For shifted colours, docs/physics.md equation (13a). All at s.wavelengths, which are in the surface's
-// frame.
+// For shifted colours, docs/physics.md equation (13a).
 
-/// Sets them: D times the film's.
-template <class Rest>
-void shift_wavelengths(DopplerFactor<Camera, Rest> doppler, const WavelengthSet& set, Scratch& s) {
-  for (std::size_t i = 0; i < s.wavelengths.size(); ++i) {
-    s.wavelengths[i] = wavelength_at_origin(doppler, set.nm()[i]);
-  }
+/// What follows is at D times the film's wavelengths.
+inline void shift_by(DopplerFactor<Camera, Rest> doppler, Scratch& s) {
+  s.shift = doppler.value;
+  s.shifted = false;
 }
+
+/// Those, for what is not looked up by D alone.
+const double* shifted_wavelengths(const WavelengthSet& set, Scratch& s);
+
+/// The film colour of an emission seen so.
+LinearRgb shifted_colour(const Spectrum& emission, const WavelengthSet& set, Scratch& s);
 
 /// The film colour of a surface's own emission.
 LinearRgb emitted_colour(const Material& material, const WavelengthSet& set, Scratch& s);
 
 /// The reflectance, into s.reflectance; or, where it is the same at every wavelength, its value.
-std::optional<double> fill_reflectance(const Material& material, double u, double v, Scratch& s);
+std::optional<double> fill_reflectance(const Material& material, double u, double v, const WavelengthSet& set,
+                                       Scratch& s);
 
 /// Film colours of a lamp of unit strength.
 struct LampColours {

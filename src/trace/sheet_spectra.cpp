@@ -20,13 +20,13 @@ class ShiftedColours {
     if (began_ && doppler.value == doppler_.value && slot == slot_ && !material_.texture) return;
     began_ = true;
     doppler_ = doppler;
+    shift_by(doppler, s_);
     slot_ = slot;
     u_ = u;
     v_ = v;
     ready_ = false;
     for (SheetScratch::Lamp& lamp : lamps_) lamp.known = false;
     if (!material_.emission) return;
-    shift_wavelengths(doppler_, set_, s_);
     emitted_ = emitted_colour(material_, set_, s_);
   }
 
@@ -36,8 +36,7 @@ class ShiftedColours {
                            DopplerFactor<Rest, Source> doppler) {
     if (lamp.known && lamp.known_doppler == doppler.value) return lamp.colours;
     if (!ready_) {
-      shift_wavelengths(doppler_, set_, s_);
-      grey_ = fill_reflectance(material_, u_, v_, s_);
+      grey_ = fill_reflectance(material_, u_, v_, set_, s_);
       ready_ = true;
     }
     lamp.colours = lamp_colours(light, doppler, material_, grey_, set_, s_);

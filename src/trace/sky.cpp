@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "backlight/colour/upsampling.h"
+#include "shading_steps.h"
 
 namespace backlight {
 namespace {
@@ -62,11 +63,8 @@ Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray) {
 
 LinearRgb sky_shifted(const Sky& sky, const RestRayEvents& ray, const WavelengthSet& set, Scratch& s) {
   if (!sky.emits) return LinearRgb{0.0};
-  const double* nm = s.wavelengths.data();
-  if (!sky.texture) {
-    sky.radiance.spectrum.evaluate(nm, set.size(), s.lamp.data(), *s.kernels);
-    return set.film(s.lamp.data(), *s.kernels);
-  }
+  if (!sky.texture) return shifted_colour(sky.radiance.spectrum, set, s);
+  const double* nm = shifted_wavelengths(set, s);
   // D65 times a reflectance of half the texel's largest component, as for any coloured light.
   const LinearRgb rgb = glm::max(texture_at(sky, ray.direction), 0.0);
   const double scale = 2.0 * std::max({rgb.r, rgb.g, rgb.b});

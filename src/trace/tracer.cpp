@@ -78,7 +78,7 @@ LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Eff
                     : sky_radiance(scene_->sky, events);
     return carry(radiance, doppler, gamma, factors).rgb;
   }
-  shift_wavelengths(doppler, wavelengths_, scratch);
+  shift_by(doppler, scratch);
   const LinearRgb radiance =
       hit.found() ? shade_shifted(context, seen_point(hub_, scratch.rays, hit), effects, scratch)
                   : sky_shifted(scene_->sky, events, wavelengths_, scratch);

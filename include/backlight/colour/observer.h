@@ -1,10 +1,12 @@
 // The observer: from a radiance known at a few wavelengths to the red, green and blue of the film.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "backlight/colour/rgb.h"
+#include "backlight/colour/shifted_daylight.h"
 #include "backlight/colour/spectral_kernels.h"
 
 namespace backlight {
@@ -45,11 +47,15 @@ class WavelengthSet {
   /// What a radiance 1 at nm()[i] alone adds to the film.
   [[nodiscard]] LinearRgb weight(int i) const;
 
+  /// D65 at shifted wavelengths of this set. Copies share it.
+  [[nodiscard]] const ShiftedDaylight& daylight() const { return *daylight_; }
+
  private:
   std::vector<double> nm_;
   std::vector<double> red_;
   std::vector<double> green_;
   std::vector<double> blue_;
+  std::shared_ptr<const ShiftedDaylight> daylight_;
 };
 
 /// The set of so many wavelengths, made when it is first asked for: the images of a process share it. From

@@ -81,6 +81,9 @@ class Spectrum {
   /// colour.
   [[nodiscard]] bool is_d65_shaped() const;
 
+  /// What it is times `d65()`, if that is what it is made as.
+  [[nodiscard]] std::optional<double> share_of_d65() const;
+
  private:
   using Kind = SpectrumForm::Kind;
   struct Table {

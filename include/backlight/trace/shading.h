@@ -38,6 +38,8 @@ struct Scratch {
   RayCounts counts;
   std::vector<std::vector<double>> light_variables;  ///< for strengths that change with time
   const SpectralKernels* kernels;   ///< for these, of one value a wavelength of the camera's set:
+  double shift = 1.0;               ///< D from the surface (or sky) to the camera
+  bool shifted = false;             ///< whether `wavelengths` are
   std::vector<double> wavelengths;  ///< in the surface's (or sky's) frame
   std::vector<double> at_light;     ///< the same in the lamp's frame
   std::vector<double> reflectance;
@@ -57,8 +59,8 @@ struct ShadingContext {
 Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                      Scratch& scratch);
 
-/// The same with its colours shifted on the way: the film colour of the spectral radiance at
-/// scratch.wavelengths, which are those of the film in the surface's frame (docs/physics.md equation (13a)).
+/// The same with its colours shifted by scratch.shift on the way: the film colour of the spectral radiance at
+/// the film's wavelengths in the surface's frame (docs/physics.md equation (13a)).
 LinearRgb shade_shifted(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                         Scratch& scratch);
 

@@ -11,7 +11,7 @@ namespace backlight {
 /// Radiance of the sky in its own frame along this ray, as a film colour.
 Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray);
 
-/// The film colour of the spectrum at scratch.wavelengths, which are those of the film in the sky's frame.
+/// The film colour with scratch.shift on the way.
 LinearRgb sky_shifted(const Sky& sky, const RestRayEvents& ray, const WavelengthSet& set, Scratch& scratch);
 
 /// A star as the camera has it.
