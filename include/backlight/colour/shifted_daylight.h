@@ -14,8 +14,7 @@
 namespace backlight {
 
 /// Rows of `Spectrum::d65()` at s times the wavelengths of a set, for shifts s that are a power of two times
-/// 1 + k/1024; between two rows it goes along straight lines in s. Against the spectrum itself the film
-/// colour is off by less than 1e-4 of white's at that shift (docs/colour.md).
+/// 1 + k/2048; between two rows it goes along straight lines in s. docs/colour.md has the error.
 ///
 /// A row is made when it is first asked for, from any thread, and depends on nothing but its number.
 class ShiftedDaylight {
