@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
   bool quick = false;
   std::puts("scene,left_out,cpu_seconds,times_whole,rms,percentile99,worst");
   for (int i = 1; i < argc; ++i) {
-    if (std::string(argv[i]) == "--quick") {
+    if (std::string(argv[i]) == "--quick" || std::string(argv[i]) == "--smoke") {
       quick = true;
     } else {
       backlight::bench::Ablation(argv[i], quick).run();

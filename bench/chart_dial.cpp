@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
       "wavelengths");
   backlight::bench::Size size{128, 94, 256};
   for (int i = 1; i < argc; ++i) {
-    if (std::string(argv[i]) == "--quick") {
+    if (std::string(argv[i]) == "--quick" || std::string(argv[i]) == "--smoke") {
       size = {36, 26, 64};
     } else {
       backlight::bench::chart(argv[i], size);

@@ -394,12 +394,20 @@ struct PovTiming {
   std::vector<double> seconds, empty;
 };
 
+bool has_povray() {
+  static const bool has = std::system("command -v povray >/dev/null 2>&1") == 0;
+  static const bool told =
+      !has && std::fputs("chart_roots: POV-Ray is not installed: without it\n", stderr) >= 0;
+  (void)told;
+  return has;
+}
+
 void chart(const fs::path& folder, const KnownSurface& surface, bool quick) {
   const int edge = quick ? 24 : 56;
   const int rounds = quick ? 2 : 3;
   const Setup s = setup_of(surface, edge);
   const std::vector<Own> ours = own_methods(surface);
-  const std::vector<Pov> theirs = pov_methods(surface, quick);
+  const std::vector<Pov> theirs = has_povray() ? pov_methods(surface, quick) : std::vector<Pov>{};
 
   std::vector<Answers> all;
   for (const Own& method : ours) trace(method, s, all.emplace_back(Answers{method.method, {}, {}}));
@@ -457,7 +465,7 @@ int main(int argc, char** argv) {
   bool quick = false;
   std::vector<std::string> wanted;
   for (int i = 2; i < argc; ++i) {
-    if (std::string(argv[i]) == "--quick")
+    if (std::string(argv[i]) == "--quick" || std::string(argv[i]) == "--smoke")
       quick = true;
     else
       wanted.emplace_back(argv[i]);

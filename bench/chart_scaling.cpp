@@ -41,7 +41,7 @@ double typical_seconds(const Scene& scene, RayPath path) {
   return median(seconds);
 }
 
-void objects(bool quick) {
+void objects(int most_spheres) {
   struct Kind {
     const char* name;
     FieldMotion motion;
@@ -54,7 +54,7 @@ void objects(bool quick) {
                         {"every one its own", FieldMotion::distinct, 1}};
   std::puts("motion,path,spheres,cpu_seconds");
   for (const int spheres : {10, 30, 100, 300, 1000, 3000, 10000, 30000, 100000}) {
-    if (quick && spheres > 3000) break;
+    if (spheres > most_spheres) break;
     for (const Kind& kind : kinds) {
       const Scene scene = field(spheres, kind.motion, kind.frames, 360, 263);
       std::printf("%s,sheets,%d,%.4g\n", kind.name, spheres, typical_seconds(scene, RayPath::sheets));
@@ -109,9 +109,10 @@ void threads(bool quick) {
 int main(int argc, char** argv) {
   using namespace backlight::bench;
   const std::string what = argc > 1 ? argv[1] : "";
-  const bool quick = argc > 2 && std::string(argv[2]) == "--quick";
+  const std::string flag = argc > 2 ? argv[2] : "";
+  const bool smoke = flag == "--smoke", quick = smoke || flag == "--quick";
   if (what == "objects") {
-    objects(quick);
+    objects(smoke ? 30 : quick ? 3000 : 100000);
   } else if (what == "pixels") {
     pixels(quick);
   } else if (what == "threads") {

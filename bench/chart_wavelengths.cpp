@@ -170,9 +170,9 @@ void errors() {
   }
 }
 
-void cost() {
+void cost(bool quick) {
   ImageRequest request;
-  request.resolution = {180, 132};
+  request.resolution = quick ? std::pair{36, 26} : std::pair{180, 132};
   request.samples = 1;
   const std::vector<int> counts{0, 8, 12, 16, 24, 32, 40, 48, 56, 64, 80, 96, 128};
   std::vector<Scene> scenes;
@@ -183,7 +183,7 @@ void cost() {
     scenes.push_back(load("scenes/fig7-tram-shadow.toml", changes, request));
   }
   std::vector<std::vector<double>> seconds(counts.size());
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < (quick ? 2 : 6); ++round) {
     for (std::size_t i = 0; i < counts.size(); ++i) {
       const double start = cpu_seconds();
       render(scenes[i]);
@@ -203,9 +203,9 @@ int main(int argc, char** argv) {
   if (what == "error") {
     backlight::bench::errors();
   } else if (what == "cost") {
-    backlight::bench::cost();
+    backlight::bench::cost(argc > 2);
   } else {
-    std::cerr << "chart_wavelengths error|cost\n";
+    std::cerr << "chart_wavelengths error|cost [--quick]\n";
     return 2;
   }
 }

@@ -2,9 +2,10 @@
 # Measures and draws the charts of docs/speed-accuracy.md, and writes that page: docs/charts/*.csv, *.png. Every point is measured in
 # the run. Some twenty minutes; the machine should have nothing else to do.
 #
-#   scripts/charts.sh [--quick] [--draw] [CHART ...]
+#   scripts/charts.sh [--quick] [--draw] [--smoke FOLDER] [CHART ...]
 #
 #   --quick   smaller pictures and fewer points, some two minutes: into out/charts/, which leaves docs/ alone
+#   --smoke   one small picture or surface of each, some seconds, into FOLDER: to see that everything works
 #   --draw    measures nothing: draws the charts and writes the page from the CSV files that are there
 #   CHART     only these (default: all of them), then the page:
 #             a  root finders: speed, error and missed roots, beside POV-Ray's
@@ -21,11 +22,19 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 quick=no
+smoke=
 draw_only=no
 charts=()
-for argument in "$@"; do
+while (($#)); do
+  argument=$1
+  shift
   case $argument in
     --quick) quick=yes ;;
+    --smoke)
+      smoke=${1:?a folder}
+      quick=yes
+      shift
+      ;;
     --draw) draw_only=yes ;;
     [a-g]) charts+=("$argument") ;;
     -h | --help) sed -n '2,20s/^# \{0,1\}//p' "$0"; exit 0 ;;
@@ -36,16 +45,24 @@ done
 
 out=docs/charts
 flag=()
+surfaces=(sphere torus Steiner Barth Klein composed expanded gyroid)
 [[ $quick == yes ]] && out=out/charts && flag=(--quick)
 mkdir -p "$out"
 figures=(fig1-tram-interior fig2a-tram-rest fig2b-tram-terrell fig2c-tram-no-light-delay fig3-earth
   fig5a-street-mercator-rest fig5b-street-mercator-0.9c fig6-starfield fig6b-real-stars fig7-tram-shadow)
 fast=(bench/yardsticks/ahead.toml)  # the one scene of chart g that is no figure: none of these flies at a γ above 30
+if [[ -n $smoke ]]; then
+  out=$smoke
+  flag=(--smoke)
+  figures=(fig3-earth)
+  surfaces=(sphere)
+  mkdir -p "$out"
+fi
 bench=${CHART_PROGRAMS:-build/bench/bench}
 begin=$SECONDS
 
 if [[ $draw_only == no ]]; then
-  scripts/install.sh build bench charts
+  [[ -n ${CHART_PROGRAMS:-} ]] || scripts/install.sh build bench charts || echo "charts.sh: going on without what is missing" >&2
   [[ -n ${CHART_PROGRAMS:-} ]] || cmake --preset bench >/dev/null
   [[ -n ${CHART_PROGRAMS:-} ]] || cmake --build --preset bench --target chart_ablation chart_arithmetic chart_dial chart_roots chart_scaling chart_wavelengths
 fi
@@ -74,14 +91,14 @@ joined() {
 measure_chart() {
   case $1 in
     a)
-      for surface in sphere torus Steiner Barth Klein composed expanded gyroid; do
+      for surface in "${surfaces[@]}"; do
         measure chart_roots "$work" "${flag[@]}" "$surface"
       done | joined "$out/roots.csv"
       ;;
     b) measure chart_arithmetic $([[ $quick == yes ]] && echo 150 || echo 2000) | joined "$out/arithmetic.csv" ;;
     c)
       measure chart_wavelengths error | joined "$out/wavelengths.csv"
-      measure chart_wavelengths cost | joined "$out/wavelengths-cost.csv"
+      measure chart_wavelengths cost "${flag[@]}" | joined "$out/wavelengths-cost.csv"
       ;;
     d)
       for figure in "${figures[@]}"; do measure chart_dial "${flag[@]}" "$figure"; done | joined "$out/dial.csv"
@@ -102,6 +119,7 @@ declare -A drawing=([a]=roots [b]=arithmetic [c]=wavelengths [d]=sampling [e]=di
 for chart in "${charts[@]}"; do
   echo "chart $chart: ${drawing[$chart]}" >&2
   [[ $draw_only == yes ]] || measure_chart "$chart"
+  command -v gnuplot >/dev/null || { echo "charts.sh: gnuplot is not installed: no picture of chart $chart" >&2; continue; }
   # It warns of each series that has no point in a panel, as most have not.
   gnuplot -e "folder='$out'; load 'scripts/charts/style.gp'" "scripts/charts/${drawing[$chart]}.gp" 2>"$work/gnuplot.log" ||
     { cat "$work/gnuplot.log" >&2; exit 1; }

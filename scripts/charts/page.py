@@ -9,6 +9,7 @@ a path to a chart. Standard library only.
 """
 
 import csv
+import math
 import os
 import re
 import statistics
@@ -86,11 +87,11 @@ def sampling(folder):
                 continue
             near = min(uniform, key=lambda u, t=float(row["cpu_seconds"]): abs(float(u["cpu_seconds"]) - t))
             delivered = short(row["rms"])
-            if float(row["rms"]) > 2 * float(row["setting"]):
+            if float(row["rms"]) > float(row["setting"]):
                 delivered = f"**{delivered}**"
             lines.append((scene, row["setting"], delivered, short(row["cpu_seconds"]), short(row["samples"]),
-                          f"{near['setting']} samples, {short(near['cpu_seconds'])} s: {short(near['rms'])}"))
-    return table(("scene", "asked", "delivered", "CPU s", "samples a pixel", "uniform samples in about that time"), lines)
+                          f"{near['setting']}: {short(near['cpu_seconds'])} s, {short(near['rms'])}"))
+    return table(("scene", "asked", "delivered", "CPU s", "samples a pixel", "even samples in about that time: CPU s, error"), lines)
 
 
 def objects(folder):
@@ -162,7 +163,37 @@ def beside(folder):
     return table(("work", "this", "time", "beside", "time", "ratio", "aim", "worst error of a hit: ours, its"), lines)
 
 
-TABLES = {"roots": roots, "arithmetic": arithmetic, "wavelengths": wavelengths, "sampling": sampling, "objects": objects,
+def cost_of_error(uniform, error):
+    """The time that even samples would take for an error, between those measured; beyond the finest, that of the finest."""
+    points = sorted((float(row["rms"]), float(row["cpu_seconds"])) for row in uniform)
+    for (low, dear), (high, cheap) in zip(points, points[1:]):
+        if low <= error <= high:
+            part = math.log(error / low) / math.log(high / low)
+            return math.exp(math.log(dear) + part * math.log(cheap / dear))
+    return points[0][1] if error < points[0][0] else points[-1][1]
+
+
+def dial(folder):
+    """What chart d and e say in a sentence, from the numbers."""
+    all_rows = rows(folder, "dial")
+    gains, ratios = {}, {}
+    for row in all_rows:
+        delivered, asked = float(row["rms"]), float(row["setting"])
+        if row["method"] != "tolerance" or delivered == 0:
+            continue
+        uniform = [u for u in all_rows if u["scene"] == row["scene"] and u["method"] == "uniform"]
+        gains.setdefault(asked, []).append((cost_of_error(uniform, delivered) / float(row["cpu_seconds"]), row["scene"]))
+        ratios.setdefault(asked, []).append((delivered / asked, row["scene"]))
+    lines = []
+    for asked in sorted(gains, reverse=True):
+        gain, ratio = sorted(gains[asked]), sorted(ratios[asked])
+        worst = f"**{short(ratio[-1][0])}**" if ratio[-1][0] > 1 else short(ratio[-1][0])
+        lines.append((f"{asked:g}", f"{short(statistics.median(g for g, _ in gain))}", f"{short(gain[0][0])}, {gain[0][1]}",
+                      f"{short(gain[-1][0])}, {gain[-1][1]}", f"{short(statistics.median(r for r, _ in ratio))}", f"{worst}, {ratio[-1][1]}"))
+    return table(("asked", "times as fast as even samples of the same error: median", "least", "most", "delivered / asked: median", "most"), lines)
+
+
+TABLES = {"dial": dial, "roots": roots, "arithmetic": arithmetic, "wavelengths": wavelengths, "sampling": sampling, "objects": objects,
           "pixels": pixels, "threads": threads, "ablation": ablation, "beside": beside}
 
 

@@ -9,8 +9,9 @@
 namespace backlight {
 namespace {
 
-constexpr int block = 4;         // edge of a block of pixels that is looked at
-constexpr int pilot_share = 16;  // one pixel of so many
+constexpr int block = 4;               // edge of a block of pixels that is looked at
+constexpr int pilot_share = 16;        // one pixel of so many
+constexpr double least_blocks = 24.0;  // of small pictures more: fewer would be too few to judge by
 constexpr int most_blocks = 128;
 // Wavelengths have a share in the error too, and the look at blocks is only that.
 constexpr double sampling_share = 0.9;
@@ -54,7 +55,7 @@ double greatest_gain(const std::vector<Share>& shares, double target, SamplingLa
 // The blocks' upper left pixels: one in each cell of a grid over the picture, anywhere in it.
 std::vector<TilePixel> block_corners(const PixelBox& picture, const SampleKey& key) {
   const double pixels = double(picture.width()) * picture.height();
-  const double wanted = std::clamp(pixels / (pilot_share * block * block), 1.0, double(most_blocks));
+  const double wanted = std::clamp(pixels / (pilot_share * block * block), least_blocks, double(most_blocks));
   const double edge = std::sqrt(pixels / wanted);
   const int columns = std::max(1, static_cast<int>(std::lround(picture.width() / edge)));
   const int rows = std::max(1, static_cast<int>(std::lround(wanted / columns)));

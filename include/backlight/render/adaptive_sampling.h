@@ -114,8 +114,9 @@ struct SamplingPlan {
 };
 
 /// Finds the law by which the error of the whole image will be `tolerance`: from a look at blocks of pixels
-/// spread over the full image, one pixel in twenty but no more than some 2000, and at some of the small
-/// things. `key`: seed and image of all samples. `trace` is not to stop. Throws what it throws.
+/// spread over the full image, one pixel in twenty, but no fewer than some 400 and no more than 2000, and at
+/// some of the small things. `key`: seed and image of all samples. `trace` is not to stop. Throws what it
+/// throws.
 SamplingPlan make_plan(double tolerance, const PixelBox& picture, const SampleKey& key,
                        std::span<const SmallThing> small, const TracePoints& trace);
 
