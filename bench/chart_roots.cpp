@@ -436,7 +436,8 @@ void chart(const fs::path& folder, const KnownSurface& surface, bool quick) {
       own_seconds[i].push_back(cpu_seconds() - start);
     }
     for (PovTiming& t : timings) {
-      t.empty.push_back(traced_seconds(folder, "empty.pov", t.edge));
+      // Little of the whole, and most of a run is its start: once is enough.
+      if (round == 0) t.empty.push_back(traced_seconds(folder, "empty.pov", t.edge));
       t.seconds.push_back(traced_seconds(folder, t.scene, t.edge));
     }
   }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures and draws the charts of docs/speed-accuracy.md, and writes that page: docs/charts/*.csv, *.png. Every point is measured in
-# the run. Some twenty minutes; the machine should have nothing else to do.
+# the run. Some nine minutes; the machine should have nothing else to do.
 #
 #   scripts/charts.sh [--quick] [--draw] [--smoke FOLDER] [CHART ...]
 #
