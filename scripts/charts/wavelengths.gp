@@ -16,7 +16,7 @@ set arrow 1 from graph 0,first 1 to graph 1,first 1 nohead dt 3 lc rgb red
 set label 1 "just noticeable" at graph 0.98,first 1.25 right font ",10" textcolor rgb red
 do for [panel=1:2] {
   set ylabel word("'worst CIEDE2000' 'mean CIEDE2000'", panel)
-  if (panel == 1) { set key right top } else { unset key }
+  if (panel == 1) { set key left bottom } else { unset key }
   c = panel == 1 ? 5 : 3
   plot for [i=1:4] data using (strcol(1) eq word(rules, i) ? times(column(2)) : NaN):(strcol(1) eq word(rules, i) ? column(c) : NaN) \
       with linespoints pt point(i) ps 1.3 lw 1.8 lc rgb colour(i) title word(rules, i), \
