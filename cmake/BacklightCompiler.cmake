@@ -23,3 +23,24 @@ elseif(BACKLIGHT_SANITIZE STREQUAL "thread")
 elseif(BACKLIGHT_SANITIZE)
   message(FATAL_ERROR "BACKLIGHT_SANITIZE is '${BACKLIGHT_SANITIZE}'; expected address, thread or nothing")
 endif()
+
+# Options of files whose kernels are for wider registers than every machine has. They are optimised in every kind of build, so
+# that nothing of them is left as a function of its own that the linker might give to other files. gcc 12 believes a register that its own
+# intrinsics leave undefined on purpose to be uninitialised (GCC bug 105593).
+set(BACKLIGHT_AVX2 -O2)
+set(BACKLIGHT_AVX512 -O2)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  list(APPEND BACKLIGHT_AVX2 -mavx2)
+  list(APPEND BACKLIGHT_AVX512 -mavx512f -mavx512dq -mavx512vl
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized>)
+endif()
+
+# NAME_avx2.cpp and NAME_avx512.cpp of this folder, which other processors leave out.
+function(backlight_wide_kernels name)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    set_source_files_properties(${name}_avx2.cpp PROPERTIES COMPILE_OPTIONS "${BACKLIGHT_AVX2}")
+    set_source_files_properties(${name}_avx512.cpp PROPERTIES COMPILE_OPTIONS "${BACKLIGHT_AVX512}")
+  else()
+    set_source_files_properties(${name}_avx2.cpp ${name}_avx512.cpp PROPERTIES HEADER_FILE_ONLY ON)
+  endif()
+endfunction()

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -33,8 +34,9 @@ void put(const Vec3& a, double (&to)[3][sheet_size], int lane) {
 
 std::uint64_t lit_bits(const PointSheet& p) {
   std::uint64_t bits = 0;
-  for (int i = 0; i < p.count; ++i)
-    bits |= std::uint64_t{p.lit[i] > 0.0 ? 1U : 0U} << static_cast<unsigned>(i);
+  for (std::size_t i = 0; i < std::size(p.lit); ++i) {
+    if (static_cast<int>(i) < p.count && p.lit[i] > 0.0) bits |= std::uint64_t{1} << i;
+  }
   return bits;
 }
 
