@@ -115,7 +115,8 @@ void take_boost(Worst& worst, const Case& c, const Boosted<T>& b) {
   const Triple<Precise>& e = c.true_boost.direction;
   const Precise size = sqrt(dot(d, d)) * sqrt(dot(e, e));
   Triple<Precise> cross;
-  for (int i = 0; i < 3; ++i) cross[i] = d[(i + 1) % 3] * e[(i + 2) % 3] - d[(i + 2) % 3] * e[(i + 1) % 3];
+  for (std::size_t i = 0; i < 3; ++i)
+    cross[i] = d[(i + 1) % 3] * e[(i + 2) % 3] - d[(i + 2) % 3] * e[(i + 1) % 3];
   worst.direction =
       raised(worst.direction, std::atan2(double(sqrt(dot(cross, cross)) / size), double(dot(d, e) / size)));
 }
