@@ -8,12 +8,6 @@
 #include "messages.h"
 
 namespace backlight {
-namespace {
-
-// From so many bytes on, it is worth a moment to give memory back to the system.
-constexpr std::size_t large_text = std::size_t{1} << 20U;
-
-}  // namespace
 
 SceneSession::SceneSession(const SceneOptions& options) {
   ReadResult result = read_scene(options.file, options.overrides);
@@ -44,7 +38,7 @@ void SceneSession::forget_contents() {
   for (const auto& source : description_->sources) text += source->text.size();
   compiler_.reset();
   description_->forget_contents();
-  if (text >= large_text) return_freed_memory();
+  return_freed_memory(text);
 }
 
 bool SceneSession::check_camera_path(const ImageRequest& request) {

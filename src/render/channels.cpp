@@ -1,10 +1,9 @@
 #include "channels.h"
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string_view>
 
 #include "pixel_blocks.h"
@@ -106,12 +105,10 @@ std::uint64_t PixelWriter::block(std::size_t at, std::size_t width, const TileLi
       row += width;
     }
   }
-  std::int32_t most = 0;  // by the bits, in whose order infinity and NaNs are beyond all numbers
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (const float value : values[c])
-      most = std::max(most, std::bit_cast<std::int32_t>(value) & 0x7fffffff);
-  }
-  if (most < 0x7f800000) return 0;
+  const auto is_finite = [](const float(&of)[block_pixels]) {
+    return all_within(of, std::numeric_limits<float>::max());
+  };
+  if (is_finite(values[0]) && is_finite(values[1]) && is_finite(values[2])) return 0;
   std::uint64_t non_finite = 0;
   for (std::size_t i = 0; i < block_pixels; ++i) {
     const bool finite =

@@ -22,8 +22,7 @@ Place place_of(const toml::source_region& region, std::uint32_t source) {
   return place;
 }
 
-// From so much text, or so many bytes of values, on it is worth a moment to give memory back to the system.
-constexpr std::size_t large_text = std::size_t{1} << 20U;
+// After so many bytes of values memory is given back to the system.
 constexpr std::size_t many_values = std::size_t{1} << 24U;
 
 // The library's values take several times the room of ours, and there may be millions: what is converted is
@@ -85,8 +84,7 @@ class Converter {
   void count(std::size_t bytes) {
     converted_ += bytes;
     if (converted_ < many_values) return;
-    converted_ = 0;
-    return_freed_memory();
+    return_freed_memory(std::exchange(converted_, 0));
   }
 
   std::uint32_t source_;
@@ -159,7 +157,7 @@ std::variant<Node, TomlError> parse_toml(std::string_view text, std::uint32_t so
       toml::table table = toml::parse(text);
       root.value = Converter(source, memory).table(table);
     }
-    if (text.size() >= large_text) return_freed_memory();
+    return_freed_memory(text.size());
     return root;
   } catch (const toml::parse_error& error) {
     return TomlError{place_of(error.source(), source), message_of(error)};

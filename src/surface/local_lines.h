@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "backlight/base/lanes.h"
+#include "backlight/surface/lane_surface.h"
 #include "local_line.h"
 
 namespace backlight {
@@ -78,15 +78,9 @@ struct LocalLines {
   }
 };
 
-/// What the lanes need of a PlacedSurface.
-struct LinePlacement {
-  double centre[3];
-  LaneMatrix local_from_rest;
-  bool aligned;
-};
-
-inline LinePlacement line_placement(const PlacedSurface& surface) {
-  LinePlacement result;
+/// A PlacedSurface as the lanes have it.
+inline LanePlacement lane_placement(const PlacedSurface& surface) {
+  LanePlacement result;
   result.aligned = surface.aligned;
   for (int c = 0; c < 3; ++c) {
     result.centre[c] = surface.placement.position()[c];
@@ -98,78 +92,18 @@ inline LinePlacement line_placement(const PlacedSurface& surface) {
 
 /// local_line() of the rays of `lines`, a padded number of them.
 template <class V>
-class LocalLineLanes {
- public:
-  static void run(const LinePlacement& placement, LocalLines& lines) {
-    for (std::size_t k = 0; k < lines.padded(); k += V::width) one(placement, lines, k);
-  }
-
- private:
-  struct Parts {
-    V value, error;
-  };
-  static BACKLIGHT_LANES Parts two_sum(V a, V b) {
-    const V sum = a + b;
-    const V b_part = sum - a;
-    return {sum, (a - (sum - b_part)) + (b - b_part)};
-  }
-  static BACKLIGHT_LANES Parts split(V a) {
-    const V scaled = V(134217729.0) * a;
-    const V high = scaled - (scaled - a);
-    return {high, a - high};
-  }
-  static BACKLIGHT_LANES Parts two_product(V a, V b, Parts a_split, Parts b_split) {
-    const V product = a * b;
-    const V error = ((a_split.value * b_split.value - product) + a_split.value * b_split.error +
-                     a_split.error * b_split.value) +
-                    a_split.error * b_split.error;
-    return {product, error};
-  }
-  static BACKLIGHT_LANES V re_origined(V origin, V centre, V lambda, Parts lambda_split, V direction) {
-    const Parts offset = two_sum(origin, -centre);
-    const Parts along = two_product(lambda, direction, lambda_split, split(direction));
-    const Parts sum = two_sum(offset.value, along.value);
-    return sum.value + (sum.error + (offset.error + along.error));
-  }
-
-  static BACKLIGHT_LANES LaneVec3<V> load(const double (&from)[3][LocalLines::most], std::size_t k) {
-    return {V::load(from[0] + k), V::load(from[1] + k), V::load(from[2] + k)};
-  }
-  static BACKLIGHT_LANES void store(LaneVec3<V> a, double (&to)[3][LocalLines::most], std::size_t k) {
-    a.x.store(to[0] + k);
-    a.y.store(to[1] + k);
-    a.z.store(to[2] + k);
-  }
-
-  static BACKLIGHT_LANES void one(const LinePlacement& placement, LocalLines& lines, std::size_t k) {
-    const LaneVec3<V> origin = load(lines.origin, k);
-    const LaneVec3<V> n = load(lines.along, k);
-    const LaneVec3<V> centre(placement.centre);
-    const V inverse_square = V(1.0) / dot(n, n);
-    const V inverse_length = sqrt(inverse_square);
-    const V lambda = -dot(origin - centre, n) * inverse_square;
-    const Parts parts = split(lambda);
-    LaneVec3<V> point(re_origined(origin.x, centre.x, lambda, parts, n.x),
-                      re_origined(origin.y, centre.y, lambda, parts, n.y),
-                      re_origined(origin.z, centre.z, lambda, parts, n.z));
-    LaneVec3<V> direction = n;
-    V per_length = inverse_length;
-    if (!placement.aligned) {
-      point = placement.local_from_rest.times(point);
-      direction = placement.local_from_rest.times(n);
-      per_length = V(1.0) / sqrt(dot(direction, direction));
-    }
-    const LaneVec3<V> unit(direction.x * per_length, direction.y * per_length, direction.z * per_length);
-    const V shift = -dot(point, unit);
+void bring_lines(const LanePlacement& placement, LocalLines& lines) {
+  for (std::size_t k = 0; k < lines.padded(); k += V::width) {
+    const LaneLine<V> line = lane_line<V>(placement, {load3<V>(lines.origin, k), load3<V>(lines.along, k)});
     const V rate = V::load(lines.rate + k);
-    (V::load(lines.time + k) + (lambda + shift * per_length) * rate).store(lines.clock_start + k);
-    (per_length * rate).store(lines.clock_rate + k);
-    store(point + shift * unit, lines.point, k);
-    store(unit, lines.direction, k);
-    lambda.store(lines.lambda_centre + k);
-    (shift * per_length).store(lines.lambda_shift + k);
-    per_length.store(lines.lambda_per_length + k);
+    (V::load(lines.time + k) + (line.lambda_centre + line.lambda_shift) * rate).store(lines.clock_start + k);
+    (line.lambda_per_length * rate).store(lines.clock_rate + k);
+    store3(line.point, lines.point, k);
+    store3(line.direction, lines.direction, k);
+    line.lambda_centre.store(lines.lambda_centre + k);
+    line.lambda_shift.store(lines.lambda_shift + k);
+    line.lambda_per_length.store(lines.lambda_per_length + k);
   }
-};
+}
 
 }  // namespace backlight

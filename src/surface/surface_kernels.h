@@ -8,14 +8,14 @@
 namespace backlight {
 
 struct SurfaceKernels {
-  void (*local_lines)(const LinePlacement&, LocalLines&);
+  void (*local_lines)(const LanePlacement&, LocalLines&);
   void (*torus_roots)(const TorusQuestion&, const LocalLines&, double* roots);
   PolynomialKernels (*polynomials)(int degree);
 };
 
 template <class V>
 SurfaceKernels surface_kernels_of() {
-  return {LocalLineLanes<V>::run, TorusLanes<V>::run, polynomial_kernels_of<V>};
+  return {bring_lines<V>, TorusLanes<V>::run, polynomial_kernels_of<V>};
 }
 
 SurfaceKernels baseline_surface_kernels();

@@ -25,7 +25,7 @@ const LocalLines& lines_of(const PlacedSurface& surface, const SurfaceSet::Rays&
   }
   copy(rays.time, lines.time);
   copy(rays.rate, lines.rate);
-  surface_kernels().local_lines(line_placement(surface), lines);
+  surface_kernels().local_lines(lane_placement(surface), lines);
   return lines;
 }
 
@@ -103,16 +103,13 @@ void SurfaceSet::resolve_all(std::span<const Hit> hits, const Rays& rays, bool w
 LaneSurface SurfaceSet::lane_surface(int surface) const {
   const PlacedSurface& placed = surfaces_[static_cast<std::size_t>(surface)];
   const Mat3& inverse = placed.placement.local_from_rest();
-  LaneSurface lanes;
+  LaneSurface lanes{lane_placement(placed)};
   if (placed.shape.kind == ShapeKind::sphere) lanes.kind = LaneSurface::Kind::sphere;
   if (placed.shape.kind == ShapeKind::plane) lanes.kind = LaneSurface::Kind::plane;
-  lanes.aligned = placed.aligned;
   lanes.radius = placed.shape.values[0];
   lanes.bounding_radius = placed.radius;
   for (int c = 0; c < 3; ++c) {
-    lanes.centre[c] = placed.placement.position()[c];
     for (int r = 0; r < 3; ++r) {
-      lanes.local_from_rest.column[c][r] = inverse[c][r];
       lanes.normal_from_gradient.column[c][r] = inverse[r][c];
       lanes.rest_from_local.column[c][r] = placed.placement.rest_from_local()[c][r];
     }

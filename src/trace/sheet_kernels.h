@@ -8,20 +8,8 @@
 namespace backlight {
 
 template <class V>
-BACKLIGHT_LANES LaneVec3<V> load3(const double (&from)[3][sheet_size], int at) {
-  return {V::load(from[0] + at), V::load(from[1] + at), V::load(from[2] + at)};
-}
-
-template <class V>
 BACKLIGHT_LANES LaneVec3<V> load3(const double* const (&from)[3], int at) {
   return {V::load(from[0] + at), V::load(from[1] + at), V::load(from[2] + at)};
-}
-
-template <class V>
-BACKLIGHT_LANES void store3(LaneVec3<V> a, double (&to)[3][sheet_size], int at) {
-  a.x.store(to[0] + at);
-  a.y.store(to[1] + at);
-  a.z.store(to[2] + at);
 }
 
 /// A vector with its time component (negative length of a past-directed null vector, or the rate of time).
@@ -137,8 +125,6 @@ struct KernelsOf {
     }
   }
 
-  static BACKLIGHT_LANES V size_of(V a) { return select(a < V(0.0), -a, a); }
-
   // The bundle as an occluder has it: docs/physics.md equations (17) to (17b).
   struct LampBundle {
     V3 axis;
@@ -191,7 +177,7 @@ struct KernelsOf {
       xk = wa * turn - one;
     }
     // What rounding makes of lengths in the occluder's frame.
-    const V extent = size_of(x.x) + size_of(x.y) + size_of(x.z) + (moving ? tau * gamma : zero);
+    const V extent = magnitude(x.x) + magnitude(x.y) + magnitude(x.z) + (moving ? tau * gamma : zero);
     const V noise = V(4e-15) * (moving ? gamma * inverse_least : one) * extent;
     // Where the occluder is along the axis and across it, how the lamp moves, and the least of the quadratic
     // function of its moment that is negative where they meet.
@@ -205,12 +191,12 @@ struct KernelsOf {
     if (moving) {
       const V moved = inverse - gamma, turned = angle * moved;
       const V curve = cosine_square * (speed * speed - moved * moved) - turned * turned;
-      const V slope = size_of(cosine_square * (xw + ahead * moved) + turned * reach);
+      const V slope = magnitude(cosine_square * (xw + ahead * moved) + turned * reach);
       // Within the moments at -slope/curve, of which no quotient is made, or else at one end.
       const Mask within = slope < tau * curve;
       miss = select(within, miss * curve - slope * slope, miss - tau * (V(2.0) * slope - tau * curve));
       room = select(within, room * curve, room);
-      shift = tau * size_of(moved);
+      shift = tau * magnitude(moved);
     }
     const V farthest = ahead + shift + noise;
     const Mask aside = miss > room;

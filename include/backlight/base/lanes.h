@@ -9,6 +9,8 @@
 // keeps one copy of an inline function, and must not find one that the machine cannot run.
 #pragma once
 
+#include <cstddef>
+
 #if defined(__SSE2__)
 #include <immintrin.h>
 #elif defined(__aarch64__)
@@ -213,6 +215,18 @@ BACKLIGHT_LANES V length(LaneVec3<V> a) {
 template <class V>
 BACKLIGHT_LANES LaneVec3<V> select(typename V::Mask mask, LaneVec3<V> a, LaneVec3<V> b) {
   return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+
+/// From and to the coordinates of `count` things, those from `at` on.
+template <class V, std::size_t count, class Index>
+BACKLIGHT_LANES LaneVec3<V> load3(const double (&from)[3][count], Index at) {
+  return {V::load(from[0] + at), V::load(from[1] + at), V::load(from[2] + at)};
+}
+template <class V, std::size_t count, class Index>
+BACKLIGHT_LANES void store3(LaneVec3<V> a, double (&to)[3][count], Index at) {
+  a.x.store(to[0] + at);
+  a.y.store(to[1] + at);
+  a.z.store(to[2] + at);
 }
 
 /// A 3x3 matrix, the same in every lane: three columns, as GLM's.

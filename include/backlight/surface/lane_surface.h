@@ -8,13 +8,17 @@
 
 namespace backlight {
 
-/// What the lanes need of a placed surface.
-struct LaneSurface {
-  enum class Kind { sphere, plane, other };
-  Kind kind = Kind::other;
+/// What the lanes need of a placed surface to bring rays next to it.
+struct LanePlacement {
   bool aligned = false;  ///< neither turned nor scaled: the matrices are the unit matrix
   double centre[3]{};
   LaneMatrix local_from_rest{};
+};
+
+/// What they need of it besides.
+struct LaneSurface : LanePlacement {
+  enum class Kind { sphere, plane, other };
+  Kind kind = Kind::other;
   LaneMatrix rest_from_local{};
   LaneMatrix normal_from_gradient{};  ///< the transposed inverse
   double radius = 0.0;                ///< sphere: of the shape, in local coordinates
@@ -61,7 +65,7 @@ BACKLIGHT_LANES V lane_re_origined(V origin, double centre, V lambda, V lambda_h
 
 /// The rays at their closest approach to the surface's centre: src/surface/local_line.h.
 template <class V>
-BACKLIGHT_LANES LaneLine<V> lane_line(const LaneSurface& surface, const LaneRay<V>& ray) {
+BACKLIGHT_LANES LaneLine<V> lane_line(const LanePlacement& surface, const LaneRay<V>& ray) {
   const LaneVec3<V>& n = ray.direction;
   const V inverse_square = V(1.0) / dot(n, n);
   const V lambda = -dot(ray.origin - LaneVec3<V>(surface.centre), n) * inverse_square;
@@ -106,10 +110,9 @@ BACKLIGHT_LANES LaneCrossing<V> lane_plane_crossing(const LaneSurface& surface, 
   const LaneVec3<V> up{V(m[0][1]), V(m[1][1]), V(m[2][1])};
   const LaneVec3<V> descent{up.x * ray.direction.x, up.y * ray.direction.y, up.z * ray.direction.z};
   const V rate = descent.x + descent.y + descent.z;
-  const auto size = [](V a) { return select(a < V(0.0), -a, a); };
-  const V noise = V(2e-15) * (size(descent.x) + size(descent.y) + size(descent.z));
+  const V noise = V(2e-15) * (magnitude(descent.x) + magnitude(descent.y) + magnitude(descent.z));
   const V lambda = -dot(up, ray.origin - LaneVec3<V>(surface.centre)) / rate;
-  return {lambda, (size(rate) > noise) & (lambda > V(0.0))};
+  return {lambda, (magnitude(rate) > noise) & (lambda > V(0.0))};
 }
 
 template <class V>
@@ -130,8 +133,7 @@ struct LanePoint {
 
 template <class V>
 BACKLIGHT_LANES V largest_coordinate(LaneVec3<V> a) {
-  const auto size = [](V b) { return select(b < V(0.0), -b, b); };
-  const V x = size(a.x), y = size(a.y), z = size(a.z);
+  const V x = magnitude(a.x), y = magnitude(a.y), z = magnitude(a.z);
   const V xy = select(x < y, y, x);
   return select(xy < z, z, xy);
 }
@@ -140,14 +142,13 @@ BACKLIGHT_LANES V largest_coordinate(LaneVec3<V> a) {
 template <class V>
 BACKLIGHT_LANES LanePoint<V> lane_resolve(const LaneSurface& surface, const LaneRay<V>& ray, V lambda) {
   const LaneLine<V> line = lane_line(surface, ray);
-  const auto size = [](V a) { return select(a < V(0.0), -a, a); };
   LanePoint<V> result;
   LaneVec3<V> local, gradient;
   V reach;
   if (surface.kind == LaneSurface::Kind::sphere) {
     const V half_chord = sqrt(V(surface.radius * surface.radius) - dot(line.point, line.point));
-    const V off_entry = size(line.lambda(-half_chord) - lambda);
-    const V off_exit = size(line.lambda(half_chord) - lambda);
+    const V off_entry = magnitude(line.lambda(-half_chord) - lambda);
+    const V off_exit = magnitude(line.lambda(half_chord) - lambda);
     const V t = select(off_exit < off_entry, half_chord, -half_chord);
     const LaneVec3<V> p = line.point + t * line.direction;
     const V inverse = V(1.0) / length(p);
@@ -163,7 +164,8 @@ BACKLIGHT_LANES LanePoint<V> lane_resolve(const LaneSurface& surface, const Lane
     gradient = {V(0.0), V(1.0), V(0.0)};
     result.u = p.x;
     result.v = p.z;
-    result.resolved = ~(line.direction.y == V(0.0)) & (size(line.lambda(t) - lambda) < V(__builtin_inf()));
+    result.resolved =
+        ~(line.direction.y == V(0.0)) & (magnitude(line.lambda(t) - lambda) < V(__builtin_inf()));
   }
   if (surface.aligned) {
     result.position = LaneVec3<V>(surface.centre) + local;

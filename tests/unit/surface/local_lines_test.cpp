@@ -25,7 +25,7 @@ void expect_the_bits_of_one(const SurfaceKernels& kernels, const PlacedSurface& 
     lines->time[i] = normal(generator);
     lines->rate[i] = normal(generator);
   }
-  kernels.local_lines(line_placement(surface), *lines);
+  kernels.local_lines(lane_placement(surface), *lines);
   for (std::size_t i = 0; i < lines->count; ++i) {
     const RestRay ray({lines->origin[0][i], lines->origin[1][i], lines->origin[2][i]},
                       {lines->along[0][i], lines->along[1][i], lines->along[2][i]},
