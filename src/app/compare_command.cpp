@@ -24,13 +24,30 @@ struct Totals {
   }
 };
 
+// What came of a file, which may have several parts.
+CompareStatus status_of(const std::vector<CompareOutcome>& parts) {
+  if (parts.size() == 1) return parts.front().status;
+  const auto any = [&parts](CompareStatus status) {
+    return std::ranges::any_of(parts, [status](const CompareOutcome& part) { return part.status == status; });
+  };
+  if (any(CompareStatus::trouble)) return CompareStatus::trouble;
+  if (any(CompareStatus::differs) || any(CompareStatus::missing) || any(CompareStatus::extra)) {
+    return CompareStatus::differs;
+  }
+  return any(CompareStatus::warning) ? CompareStatus::warning : CompareStatus::equal;
+}
+
 // Whether --update would put the new image in the reference's place: only where that changes the verdict. A
 // reference that cannot be read or has another layout is replaced too; a new image that cannot be read is not
 // taken.
-bool is_to_be_updated(const CompareOutcome& outcome) {
-  if (!outcome.now) return false;
-  return outcome.status == CompareStatus::differs || outcome.status == CompareStatus::extra ||
-         outcome.status == CompareStatus::trouble;
+bool is_to_be_updated(const std::vector<CompareOutcome>& parts) {
+  const auto is_readable = [](const CompareOutcome& part) {
+    return part.now || part.status == CompareStatus::missing;
+  };
+  if (parts.front().pair.now.empty() || !std::ranges::all_of(parts, is_readable)) return false;
+  const CompareStatus status = status_of(parts);
+  return status == CompareStatus::differs || status == CompareStatus::extra ||
+         status == CompareStatus::trouble;
 }
 
 Result<void> update(const ImagePair& pair) {
@@ -57,31 +74,29 @@ int exit_code(const Totals& totals) {
   return different > 0 ? exit_compare_differs : exit_success;
 }
 
-// Compares one image, and takes it as the new reference where that was asked for.
-CompareOutcome look_at(const ImagePair& pair, const CompareOptions& options, bool single, Totals& totals) {
-  CompareOutcome outcome = compare_pair(pair, options.limits);
-  const bool good = outcome.status == CompareStatus::equal;
-  if (options.verbosity != Verbosity::quiet) {
-    std::cout << outcome_text(outcome, !single && good && options.verbosity != Verbosity::verbose);
+// Compares one image.
+std::vector<CompareOutcome> look_at(const ImagePair& pair, const CompareOptions& options, bool single) {
+  std::vector<CompareOutcome> parts = compare_pair(pair, options.limits);
+  for (const CompareOutcome& part : parts) {
+    const bool good = part.status == CompareStatus::equal;
+    if (options.verbosity != Verbosity::quiet) {
+      std::cout << outcome_text(part, !single && good && options.verbosity != Verbosity::verbose);
+    }
+    if (part.status == CompareStatus::trouble) print_error(part.pair.name + ": " + part.reason);
   }
-  if (outcome.status == CompareStatus::trouble) print_error(pair.name + ": " + outcome.reason);
-  ++totals.compared;
-  ++totals.counts[static_cast<std::size_t>(outcome.status)];
-  return outcome;
+  return parts;
 }
 
-void take_as_reference(CompareOutcome& outcome, Totals& totals) {
-  const Result<void> updated = update(outcome.pair);
-  --totals.counts[static_cast<std::size_t>(outcome.status)];
-  if (updated.ok()) {
-    std::cout << "updated " << outcome.pair.reference_place.string() << '\n';
-    outcome.status = CompareStatus::equal;
-    ++totals.updated;
-  } else {
+// Puts the new image in the reference's place.
+CompareStatus take_as_reference(const ImagePair& pair, Totals& totals) {
+  const Result<void> updated = update(pair);
+  if (!updated.ok()) {
     print_error(updated.error());
-    outcome.status = CompareStatus::trouble;
+    return CompareStatus::trouble;
   }
-  ++totals.counts[static_cast<std::size_t>(outcome.status)];
+  std::cout << "updated " << pair.reference_place.string() << '\n';
+  ++totals.updated;
+  return CompareStatus::equal;
 }
 
 int trouble(const std::string& message) {
@@ -98,11 +113,14 @@ int run(const CompareOptions& options) {
   Totals totals;
   CompareReport report(options);
   for (const ImagePair& pair : pairs.value()) {
-    CompareOutcome outcome = look_at(pair, options, single, totals);
-    if (const auto added = options.html.empty() ? Result<void>() : report.add(outcome); !added.ok()) {
-      return trouble(pair.name + ": " + added.error());
+    const std::vector<CompareOutcome> parts = look_at(pair, options, single);
+    for (const CompareOutcome& part : options.html.empty() ? std::vector<CompareOutcome>() : parts) {
+      if (const auto added = report.add(part); !added.ok()) return trouble(pair.name + ": " + added.error());
     }
-    if (options.update && is_to_be_updated(outcome)) take_as_reference(outcome, totals);
+    const bool taken = options.update && is_to_be_updated(parts);
+    const CompareStatus status = taken ? take_as_reference(pair, totals) : status_of(parts);
+    ++totals.compared;
+    ++totals.counts[static_cast<std::size_t>(status)];
   }
   if (!options.html.empty()) {
     if (const auto written = report.write(options.html); !written.ok()) return trouble(written.error());

@@ -49,7 +49,12 @@ std::string channel_table(const ImageDifference& difference) {
   for (const ChannelDifference& c : difference.channels) {
     const std::string where = c.x < 0 ? "-" : std::to_string(c.x) + "," + std::to_string(c.y);
     const std::string over = std::to_string(c.over_fail) + " over " + short_number(c.tolerance);
-    const auto value = [&c](float v) { return c.x < 0 ? std::string("-") : short_number(v); };
+    // Great whole numbers that are not equal may look it in four digits.
+    const bool alike = short_number(c.reference) == short_number(c.now);
+    const auto value = [&](double v) {
+      if (c.x < 0) return std::string("-");
+      return alike ? json_number(v) : short_number(v);
+    };
     add_row(text, c.name.c_str(), short_number(c.mean).c_str(), short_number(c.rms).c_str(),
             short_number(c.maximum).c_str(), where.c_str(), value(c.reference).c_str(), value(c.now).c_str(),
             over.c_str());
@@ -92,44 +97,6 @@ T attribute(const ExrHeader& header, const char* name, const T& otherwise) {
 const char* status_name(CompareStatus status) {
   constexpr const char* names[] = {"equal", "warning", "differs", "missing", "extra", "trouble"};
   return names[static_cast<std::size_t>(status)];
-}
-
-CompareOutcome compare_pair(const ImagePair& pair, const CompareLimits& limits) {
-  CompareOutcome outcome{pair, CompareStatus::trouble, {}, {}, {}, {}};
-  const auto read = [&outcome](const std::filesystem::path& path, std::optional<ExrPicture>& picture) {
-    if (path.empty()) return;
-    auto result = read_exr(path);
-    if (!result.ok()) {
-      outcome.reason += (outcome.reason.empty() ? "" : "; ") + result.error();
-      return;
-    }
-    picture = std::move(result).value();
-  };
-  read(pair.reference, outcome.reference);
-  read(pair.now, outcome.now);
-  if (!outcome.reason.empty()) return outcome;
-  if (!outcome.reference || !outcome.now) {
-    outcome.status = outcome.now ? CompareStatus::extra : CompareStatus::missing;
-    outcome.reason = outcome.now ? "it has no reference" : "there is a reference, but no new image";
-    return outcome;
-  }
-  auto compared = compare_images(outcome.reference->image, outcome.now->image, limits);
-  if (!compared.ok()) {
-    outcome.reason = compared.error();
-    return outcome;
-  }
-  outcome.difference = std::move(compared).value();
-  switch (outcome.difference->verdict) {
-    case Verdict::pass:
-      outcome.status = CompareStatus::equal;
-      break;
-    case Verdict::warning:
-      outcome.status = CompareStatus::warning;
-      break;
-    case Verdict::failure:
-      outcome.status = CompareStatus::differs;
-  }
-  return outcome;
 }
 
 std::string outcome_text(const CompareOutcome& outcome, bool brief) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "backlight/film/compare.h"
 #include "backlight/film/exr.h"
@@ -31,8 +32,10 @@ struct CompareOutcome {
   std::optional<ImageDifference> difference;
 };
 
-/// Reads the two files and compares them.
-CompareOutcome compare_pair(const ImagePair& pair, const CompareLimits& limits);
+/// Reads the two files and compares them: an outcome for each part, at least one. Parts are matched by name;
+/// one on one side only is `missing` or `extra`. What of a part cannot be looked at is trouble: deep
+/// pictures, subsampled channels, smaller levels. Parts without a channel of `limits.channels` are left out.
+std::vector<CompareOutcome> compare_pair(const ImagePair& pair, const CompareLimits& limits);
 
 /// What was found, as text with a table of the channels; one line when `brief`.
 std::string outcome_text(const CompareOutcome& outcome, bool brief);

@@ -44,12 +44,12 @@ std::string two_counts(std::uint64_t reference, std::uint64_t now) {
 }
 
 // JSON has no NaN and no infinity: the page shows values as texts.
-std::string value_text(const ChannelDifference& channel, float value) {
+std::string value_text(const ChannelDifference& channel, double value) {
   if (channel.x < 0) return "–";
   if (std::isnan(value)) return "NaN";
-  if (std::isinf(value)) return value < 0.0F ? "-Inf" : "Inf";
+  if (std::isinf(value)) return value < 0.0 ? "-Inf" : "Inf";
   char text[32];
-  std::snprintf(text, sizeof text, "%.6g", double(value));
+  std::snprintf(text, sizeof text, "%.10g", value);
   return text;
 }
 

@@ -136,10 +136,26 @@ void add_legend(PixelBytes& pixels, const fs::path& file, const BlackCounts& cou
   }
 }
 
+// What of the file the picture does not show, beside its data channels.
+void print_rest(const fs::path& file) {
+  const auto parts = read_exr_parts(file);
+  if (!parts.ok()) return;
+  const ExrInfo& first = parts.value().front();
+  if (first.parts > 1) {
+    std::cerr << file.string() << ": the first of " << first.parts << " parts is shown, '" << first.part
+              << "'\n";
+  }
+  if (first.pixel_aspect != 1.0F) {
+    std::cerr << file.string() << ": shown with square pixels; the file has them "
+              << text_of(first.pixel_aspect) << " times as wide as high\n";
+  }
+}
+
 Result<PixelBytes> shown(const fs::path& file, const ViewOptions& options,
                          const DisplayTransform& transform) {
   const auto picture = read_exr(file);
   if (!picture.ok()) return picture.failure();
+  if (options.verbosity != Verbosity::quiet) print_rest(file);
   auto displayed = display_image(picture.value().image, transform, options.view);
   if (!displayed.ok()) return Failure{file.string() + ": " + displayed.error()};
   if (options.verbosity != Verbosity::quiet && transform.tone == ToneCurve::none) {

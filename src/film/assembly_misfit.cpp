@@ -95,6 +95,10 @@ std::string fault_of(const ImagePart& part, const ImagePart& first) {
   if (*complete != 1) {
     return part.file.string() + " is not complete: let 'backlight render --resume' finish it first";
   }
+  if (part.info.parts > 1) {
+    return part.file.string() + " has " + std::to_string(part.info.parts) +
+           " parts: images are put together from files of one part";
+  }
   const PixelBox& data = layout.data;
   const PixelBox& whole = layout.display;
   if (data.x0 < whole.x0 || data.y0 < whole.y0 || data.x1 > whole.x1 || data.y1 > whole.y1) {

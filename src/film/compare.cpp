@@ -89,8 +89,8 @@ Result<void> check_layouts(const Image& reference, const Image& now, const Compa
   return check_names(reference, limits);
 }
 
-double relative(double difference, float a, float b) {
-  const double mean = 0.5 * (std::abs(double(a)) + std::abs(double(b)));
+double relative(double difference, double a, double b) {
+  const double mean = 0.5 * (std::abs(a) + std::abs(b));
   return mean > 0.0 ? difference / mean : 0.0;
 }
 
@@ -111,7 +111,7 @@ class ChannelComparison {
     bool warn;
   };
 
-  Over add(float reference, float now, int x, int y) {
+  Over add(double reference, double now, int x, int y) {
     count(reference, result_.nan_reference, result_.inf_reference);
     count(now, result_.nan_new, result_.inf_new);
     const double difference = value_difference(reference, now);
@@ -131,7 +131,7 @@ class ChannelComparison {
     sum_ += difference;
     squares_ += difference * difference;
     if (std::isfinite(reference)) {
-      peak_ = std::max({peak_, std::abs(double(reference)), std::abs(double(now))});
+      peak_ = std::max({peak_, std::abs(reference), std::abs(now)});
     }
     const double share = relative(difference, reference, now);
     const Over over{difference > fail_ && share > limits_.fail_relative,
@@ -152,7 +152,7 @@ class ChannelComparison {
   }
 
  private:
-  static void count(float value, std::uint64_t& nans, std::uint64_t& infinities) {
+  static void count(double value, std::uint64_t& nans, std::uint64_t& infinities) {
     nans += std::isnan(value) ? 1U : 0U;
     infinities += std::isinf(value) ? 1U : 0U;
   }
@@ -164,6 +164,22 @@ class ChannelComparison {
   double squares_ = 0.0;
   double peak_ = 1.0;
   ChannelDifference result_;
+};
+
+// A channel's values as they are in the file: those of whole numbers need more digits than a float has.
+class ExactChannel {
+ public:
+  ExactChannel(const Image& image, const std::string& name)
+      : ExactChannel(image, static_cast<std::size_t>(image.find_channel(name))) {}
+
+  double operator[](std::size_t i) const { return whole_.empty() ? double(plane_[i]) : double(whole_[i]); }
+
+ private:
+  ExactChannel(const Image& image, std::size_t channel)
+      : plane_(image.plane(channel)), whole_(image.whole_numbers(channel)) {}
+
+  std::span<const float> plane_;
+  std::span<const std::uint32_t> whole_;
 };
 
 Verdict verdict_of(const ImageDifference& difference, const CompareLimits& limits) {
@@ -202,11 +218,11 @@ bool names_channel(const std::string& name, const std::string& channel,
   return false;
 }
 
-double value_difference(float reference, float now) {
+double value_difference(double reference, double now) {
   if (std::isnan(reference) && std::isnan(now)) return 0.0;
   if (reference == now) return 0.0;
   if (!std::isfinite(reference) || !std::isfinite(now)) return std::numeric_limits<double>::infinity();
-  return std::abs(double(now) - double(reference));
+  return std::abs(now - reference);
 }
 
 Result<ImageDifference> compare_images(const Image& reference, const Image& now,
@@ -217,8 +233,8 @@ Result<ImageDifference> compare_images(const Image& reference, const Image& now,
   difference.pixels = std::uint64_t(data.width()) * std::uint64_t(data.height());
   std::vector<std::uint8_t> over(difference.pixels, 0);  // bit 0: fail, bit 1: warn
   for (const std::string& name : wanted_channels(reference, limits)) {
-    const auto a = reference.plane(static_cast<std::size_t>(reference.find_channel(name)));
-    const auto b = now.plane(static_cast<std::size_t>(now.find_channel(name)));
+    const ExactChannel a(reference, name);
+    const ExactChannel b(now, name);
     ChannelComparison channel(limits, name, reference.layout().views);
     std::size_t i = 0;
     for (int y = data.y0; y < data.y1; ++y) {

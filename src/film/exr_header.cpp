@@ -4,9 +4,11 @@
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfIntAttribute.h>
+#include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfStringVectorAttribute.h>
+#include <ImfTileDescription.h>
 #include <ImfVecAttribute.h>
 
 #include <algorithm>
@@ -95,9 +97,9 @@ std::optional<ExrValue> to_value(const Imf::Attribute& attribute) {
 
 /// Attributes that have a place of their own in ExrInfo.
 bool has_own_place(const std::string& name) {
-  static const std::set<std::string> names{"Software",         "comments",  "whiteLuminance",
-                                           "worldToCamera",    "multiView", "pixelAspectRatio",
-                                           "screenWindowWidth"};
+  static const std::set<std::string> names{
+      "Software",         "comments",          "whiteLuminance", "worldToCamera", "multiView",
+      "pixelAspectRatio", "screenWindowWidth", "name",           "type",          "chunkCount"};
   return names.contains(name);
 }
 
@@ -157,17 +159,55 @@ Imf::Header to_imf(const ImageLayout& layout, const ExrHeader& description) {
   return header;
 }
 
+namespace {
+
+ChannelPrecision from_imf(Imf::PixelType type) {
+  if (type == Imf::UINT) return ChannelPrecision::whole;
+  return type == Imf::HALF ? ChannelPrecision::half : ChannelPrecision::single;
+}
+
+void add_channels(ExrInfo& info, const Imf::ChannelList& channels) {
+  for (auto entry = channels.begin(); entry != channels.end(); ++entry) {
+    if (entry.channel().xSampling != 1 || entry.channel().ySampling != 1) {
+      info.unreadable = "its channel " + std::string(entry.name()) + " is subsampled";
+    }
+    info.layout.channels.push_back({entry.name(), from_imf(entry.channel().type)});
+  }
+}
+
+void add_storage(ExrInfo& info, const Imf::Header& header) {
+  info.part = header.hasName() ? header.name() : "";
+  info.pixel_aspect = header.pixelAspectRatio();
+  const Imf::Chromaticities colours =
+      Imf::hasChromaticities(header) ? Imf::chromaticities(header) : Imf::Chromaticities();
+  info.chromaticities = {colours.red.x,  colours.red.y,  colours.green.x, colours.green.y,
+                         colours.blue.x, colours.blue.y, colours.white.x, colours.white.y};
+  const std::string type = header.hasType() ? header.type() : "";
+  info.tiled = header.hasTileDescription();
+  info.storage = "scanlines";
+  if (info.tiled) {
+    const Imf::TileDescription& tiles = header.tileDescription();
+    info.storage = "tiles of " + std::to_string(tiles.xSize) + " x " + std::to_string(tiles.ySize);
+    info.has_levels = tiles.mode != Imf::ONE_LEVEL;
+    if (info.has_levels) info.storage += ", and smaller levels";
+  }
+  if (type.starts_with("deep")) {
+    info.unreadable = "it is a deep picture";
+    info.storage = type == Imf::DEEPTILE ? "deep tiles" : "deep scanlines";
+  } else if (!type.empty() && type != Imf::SCANLINEIMAGE && type != Imf::TILEDIMAGE) {
+    info.unreadable = "it is of an unknown kind, '" + type + "'";
+    info.storage = type;
+  }
+}
+
+}  // namespace
+
 ExrInfo from_imf(const Imf::Header& header) {
   ExrInfo info;
+  add_storage(info, header);
   info.layout.display = from_imath(header.displayWindow());
   info.layout.data = from_imath(header.dataWindow());
-  for (auto entry = header.channels().begin(); entry != header.channels().end(); ++entry) {
-    if (entry.channel().xSampling != 1 || entry.channel().ySampling != 1) {
-      throw std::runtime_error("its channel " + std::string(entry.name()) + " is subsampled");
-    }
-    const bool half = entry.channel().type == Imf::HALF;
-    info.layout.channels.push_back({entry.name(), half ? ChannelPrecision::half : ChannelPrecision::single});
-  }
+  add_channels(info, header.channels());
   if (Imf::hasMultiView(header)) {
     info.layout.views = Imf::multiView(header);
   }

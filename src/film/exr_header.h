@@ -13,7 +13,7 @@ inline constexpr int zip_chunk_rows = 16;
 /// Throws std::exception on an attribute that cannot be written.
 Imf::Header to_imf(const ImageLayout& layout, const ExrHeader& description);
 
-/// Throws std::exception on a picture that read_exr does not read.
+/// One part. Throws std::exception on windows that no picture has.
 ExrInfo from_imf(const Imf::Header& header);
 
 }  // namespace backlight

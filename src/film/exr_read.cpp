@@ -1,6 +1,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfVersion.h>
 #include <ImfXdr.h>
 
@@ -55,9 +56,9 @@ class FileStream : public Imf::IStream {
   std::uint64_t size_ = 0;
 };
 
-/// The first part's header. It is looked at before Imf::InputFile sees it, which trusts the windows of a
-/// damaged file enough to allocate tables for them.
-ExrInfo read_info(FileStream& stream) {
+/// The headers of all parts. They are looked at before OpenEXR's own classes see them, which trust the
+/// windows of a damaged file enough to allocate tables for them.
+std::vector<ExrInfo> read_headers(FileStream& stream) {
   int magic = 0;
   int version = 0;
   Imf::Xdr::read<Imf::StreamIO>(stream, magic);
@@ -68,17 +69,31 @@ ExrInfo read_info(FileStream& stream) {
   if (Imf::getVersion(version) != Imf::EXR_VERSION || !Imf::supportsFlags(Imf::getFlags(version))) {
     throw std::runtime_error("it is of an unknown version of OpenEXR");
   }
-  if (Imf::isNonImage(version)) {
-    throw std::runtime_error("it is a deep picture");
-  }
-  Imf::Header header;
-  header.readFrom(stream, version);
-  return from_imf(header);
+  std::vector<ExrInfo> parts;
+  const bool several = Imf::isMultiPart(version);
+  do {
+    Imf::Header header;
+    header.readFrom(stream, version);
+    if (several && header.readsNothing()) break;  // after the last one
+    parts.push_back(from_imf(header));
+  } while (several);
+  if (parts.empty()) throw std::runtime_error("it has no part");
+  if (!several && Imf::isNonImage(version)) parts.front().unreadable = "it is a deep picture";
+  for (ExrInfo& info : parts) info.parts = parts.size();
+  return parts;
 }
 
-ExrInfo read_info_of(const std::filesystem::path& path) {
+std::vector<ExrInfo> read_headers_of(const std::filesystem::path& path) {
   FileStream stream(path);
-  return read_info(stream);
+  return read_headers(stream);
+}
+
+/// Of part number `part`, which must be one that can be read.
+ExrInfo readable(std::vector<ExrInfo> parts, std::size_t part) {
+  if (part >= parts.size()) throw std::runtime_error("it has no part " + std::to_string(part + 1));
+  ExrInfo info = std::move(parts[part]);
+  if (!info.unreadable.empty()) throw std::runtime_error(info.unreadable);
+  return info;
 }
 
 /// Walks through the chunks of a one-part scanline file by its table of offsets, which follows the header:
@@ -124,9 +139,13 @@ Result<T> without_exceptions(const std::filesystem::path& path, const std::funct
 
 class ExrReader::Implementation {
  public:
-  // The header is judged by read_info before a table is allocated for what it announces.
-  explicit Implementation(std::filesystem::path path)
-      : path_(std::move(path)), info_(read_info_of(path_)), stream_(path_), input_(stream_, 0) {}
+  // The headers are judged by read_headers before a table is allocated for what they announce.
+  Implementation(std::filesystem::path path, std::size_t part)
+      : path_(std::move(path)),
+        info_(readable(read_headers_of(path_), part)),
+        stream_(path_),
+        file_(stream_, 0),
+        input_(file_, static_cast<int>(part)) {}
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const ExrInfo& info() const { return info_; }
@@ -149,11 +168,25 @@ class ExrReader::Implementation {
     input_.readPixels(first, first + count - 1);
   }
 
+  std::vector<std::uint32_t> read_whole_numbers(std::size_t channel) {
+    const PixelBox& data = info_.layout.data;
+    std::vector<std::uint32_t> values(static_cast<std::size_t>(data.width()) *
+                                      static_cast<std::size_t>(data.height()));
+    Imf::FrameBuffer buffer;
+    buffer.insert(info_.layout.channels.at(channel).name,
+                  Imf::Slice::Make(Imf::UINT, values.data(), Imath::V2i(data.x0, data.y0), data.width(),
+                                   data.height()));
+    input_.setFrameBuffer(buffer);
+    input_.readPixels(data.y0, data.y1 - 1);
+    return values;
+  }
+
  private:
   std::filesystem::path path_;
   ExrInfo info_;
   FileStream stream_;
-  Imf::InputFile input_;
+  Imf::MultiPartInputFile file_;
+  Imf::InputPart input_;
 };
 
 ExrReader::ExrReader(std::unique_ptr<Implementation> implementation)
@@ -162,9 +195,9 @@ ExrReader::ExrReader(ExrReader&&) noexcept = default;
 ExrReader& ExrReader::operator=(ExrReader&&) noexcept = default;
 ExrReader::~ExrReader() = default;
 
-Result<ExrReader> ExrReader::open(const std::filesystem::path& path) {
-  return without_exceptions<ExrReader>(path,
-                                       [&] { return ExrReader(std::make_unique<Implementation>(path)); });
+Result<ExrReader> ExrReader::open(const std::filesystem::path& path, std::size_t part) {
+  return without_exceptions<ExrReader>(
+      path, [&] { return ExrReader(std::make_unique<Implementation>(path, part)); });
 }
 
 const ExrInfo& ExrReader::info() const {
@@ -176,6 +209,11 @@ Result<void> ExrReader::read_rows(int first, int count, std::span<const std::spa
     implementation_->read_rows(first, count, planes);
     return {};
   });
+}
+
+Result<std::vector<std::uint32_t>> ExrReader::read_whole_numbers(std::size_t channel) {
+  return without_exceptions<std::vector<std::uint32_t>>(
+      implementation_->path(), [&] { return implementation_->read_whole_numbers(channel); });
 }
 
 namespace {
@@ -198,27 +236,39 @@ Result<Image> read_pixels(ExrReader& reader) {
     }
     if (auto read = reader.read_rows(row, count, band); !read.ok()) return read.failure();
   }
-  return Image(layout, std::move(planes));
+  Image image(layout, std::move(planes));
+  for (std::size_t channel = 0; channel < layout.channels.size(); ++channel) {
+    if (layout.channels[channel].precision != ChannelPrecision::whole) continue;
+    auto values = reader.read_whole_numbers(channel);
+    if (!values.ok()) return values.failure();
+    image.set_whole_numbers(channel, std::move(values).value());
+  }
+  return image;
 }
 
 }  // namespace
 
 Result<ExrInfo> read_exr_info(const std::filesystem::path& path) {
-  return without_exceptions<ExrInfo>(path, [&] { return read_info_of(path); });
+  return without_exceptions<ExrInfo>(path, [&] { return readable(read_headers_of(path), 0); });
+}
+
+Result<std::vector<ExrInfo>> read_exr_parts(const std::filesystem::path& path) {
+  return without_exceptions<std::vector<ExrInfo>>(path, [&] { return read_headers_of(path); });
 }
 
 Result<ExrInfo> read_whole_exr_info(const std::filesystem::path& path) {
   return without_exceptions<ExrInfo>(path, [&]() -> Result<ExrInfo> {
     FileStream stream(path);
-    ExrInfo info = read_info(stream);
+    ExrInfo info = readable(read_headers(stream), 0);
+    if (info.parts > 1 || info.tiled) throw std::runtime_error("it is not stored as one part of scanlines");
     check_chunks(stream, info);
     return info;
   });
 }
 
-Result<ExrPicture> read_exr(const std::filesystem::path& path) {
+Result<ExrPicture> read_exr(const std::filesystem::path& path, std::size_t part) {
   return without_exceptions<ExrPicture>(path, [&]() -> Result<ExrPicture> {
-    auto reader = ExrReader::open(path);
+    auto reader = ExrReader::open(path, part);
     if (!reader.ok()) return reader.failure();
     auto image = read_pixels(reader.value());
     if (!image.ok()) return image.failure();

@@ -65,6 +65,9 @@ std::string fault_of(const ImageLayout& layout) {
     if (channel.name.empty() || !names.insert(channel.name).second) {
       return "two channels are called '" + channel.name + "', or one has no name";
     }
+    if (channel.precision == ChannelPrecision::whole) {
+      return "the channel " + channel.name + " is of whole numbers, which are only read";
+    }
   }
   return {};
 }

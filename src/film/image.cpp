@@ -72,6 +72,15 @@ Image::Image(ImageLayout layout) : layout_(std::move(layout)) {
   }
 }
 
+std::span<const std::uint32_t> Image::whole_numbers(std::size_t channel) const {
+  const auto found = whole_numbers_.find(channel);
+  return found == whole_numbers_.end() ? std::span<const std::uint32_t>() : std::span(found->second);
+}
+
+void Image::set_whole_numbers(std::size_t channel, std::vector<std::uint32_t> values) {
+  whole_numbers_[channel] = std::move(values);
+}
+
 int Image::find_channel(std::string_view name) const {
   for (std::size_t channel = 0; channel < layout_.channels.size(); ++channel) {
     if (layout_.channels[channel].name == name) {

@@ -15,6 +15,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -62,15 +63,39 @@ int guarded(char* error, std::size_t error_size, const Work& work) {
   throw std::runtime_error(line.empty() ? otherwise : line);
 }
 
-/// The first of the channels that hold the colour, and their number, 1 or 3.
-std::pair<int, int> colour_channels(const OIIO::ImageSpec& spec) {
+/// Where a file has its colour: which of its pictures, the first of the channels, and their number, 1 or 3.
+struct ColourPlace {
+  int picture = 0;
+  int first = 0;
+  int channels = 0;  ///< 0: it has none
+};
+
+ColourPlace colour_in(const OIIO::ImageSpec& spec, int picture, bool is_exr) {
   const auto& names = spec.channelnames;
   for (std::size_t i = 0; i + 3 <= names.size(); ++i) {
     if (names[i] == "R" && names[i + 1] == "G" && names[i + 2] == "B") {
-      return {static_cast<int>(i), 3};
+      return {picture, static_cast<int>(i), 3};
     }
   }
-  return {0, spec.nchannels >= 3 ? 3 : 1};
+  // The channels of an OpenEXR file may be anything: distances, identifiers. One alone is taken as grey.
+  if (is_exr && spec.nchannels > 1) {
+    const auto grey = std::find(names.begin(), names.end(), "Y");
+    if (grey == names.end()) return {picture, 0, 0};
+    return {picture, static_cast<int>(grey - names.begin()), 1};
+  }
+  return {picture, 0, spec.nchannels >= 3 ? 3 : 1};
+}
+
+/// Of an OpenEXR file of several parts, the first one with colour; else the file's first picture.
+ColourPlace find_colour(OIIO::ImageInput& input) {
+  const bool is_exr = std::string_view(input.format_name()) == "openexr";
+  std::string present;
+  for (int picture = 0; input.seek_subimage(picture, 0); ++picture) {
+    const ColourPlace place = colour_in(input.spec(), picture, is_exr);
+    if (place.channels > 0) return place;
+    for (const std::string& name : input.spec().channelnames) present += (present.empty() ? "" : ", ") + name;
+  }
+  throw std::runtime_error("it has no channels R, G and B, nor Y; there are " + present);
 }
 
 /// Turns the picture as a camera's Orientation tag says.
@@ -97,6 +122,7 @@ void load(const char* path, BacklightOiioImage& image) {
   if (!input) {
     raise(OIIO::geterror(), "the file cannot be opened");
   }
+  const auto [picture, first, channels] = find_colour(*input);
   OIIO::ImageSpec spec = input->spec();
   if (spec.depth > 1 || spec.deep || spec.width <= 0 || spec.height <= 0) {
     throw std::runtime_error("not a flat picture");
@@ -105,12 +131,11 @@ void load(const char* path, BacklightOiioImage& image) {
       spec.full_y != spec.y) {
     throw std::runtime_error("only a part of the picture is in the file (its data window is a crop)");
   }
-  const auto [first, channels] = colour_channels(spec);
   const std::size_t count = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
   std::vector<float> stored(count * static_cast<std::size_t>(channels));
   // A JPEG that is cut short is filled up with grey, and read "successfully" with an error left to be
   // fetched.
-  if (!input->read_image(0, 0, first, first + channels, OIIO::TypeDesc::FLOAT, stored.data()) ||
+  if (!input->read_image(picture, 0, first, first + channels, OIIO::TypeDesc::FLOAT, stored.data()) ||
       input->has_error()) {
     raise(input->geterror(), "the file is damaged or cut short");
   }

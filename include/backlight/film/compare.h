@@ -52,8 +52,8 @@ struct ChannelDifference {
   double maximum = 0.0;  ///< of |new - reference|; infinite where `not_comparable` is not 0
   int x = -1;            ///< where the maximum is, pixel of the whole picture; -1 where all values are equal
   int y = -1;
-  float reference = 0.0F;  ///< the values there
-  float now = 0.0F;
+  double reference = 0.0;  ///< the values there
+  double now = 0.0;
   std::uint64_t over_fail = 0;  ///< values
   std::uint64_t over_warn = 0;
   std::uint64_t nan_reference = 0;
@@ -76,8 +76,10 @@ struct ImageDifference {
   [[nodiscard]] const ChannelDifference& worst() const;
 };
 
-/// Compares channel by channel, by name. Fails if the pictures cannot be compared: other display or data
-/// windows, views, or channels on one side only; or if a name of the limits fits no channel.
+/// Compares channel by channel, by name: values, however they are stored (half, float, whole numbers, which
+/// are compared exactly). 0 and -0 are equal, and so are all NaNs. Fails if the pictures cannot be compared:
+/// other display or data windows, views, or channels on one side only; or if a name of the limits fits no
+/// channel.
 Result<ImageDifference> compare_images(const Image& reference, const Image& now, const CompareLimits& limits);
 
 /// Whether `name` of a limit ("Z", "P", "right.R") means the file's channel `channel`.
@@ -86,6 +88,6 @@ bool names_channel(const std::string& name, const std::string& channel,
 
 /// |new - reference| of one pixel by the rules of ChannelDifference: 0 for equal values, also for those that
 /// are not finite, and infinite where the two cannot be compared.
-double value_difference(float reference, float now);
+double value_difference(double reference, double now);
 
 }  // namespace backlight

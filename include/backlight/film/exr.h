@@ -120,28 +120,44 @@ struct ExrPicture {
   ExrHeader header;
 };
 
-/// Reads the first part of any flat EXR file, whatever wrote it; unsigned integers become floats. Attributes
-/// of other types than ExrValue's are left out. Fails on a file that is missing, damaged or cut short, is
-/// deep, has subsampled channels, or is wider or higher than 2^20 pixels.
-Result<ExrPicture> read_exr(const std::filesystem::path& path);
+/// Reads part number `part` of any flat EXR file, whatever wrote it: scanlines or tiles, of which the level
+/// of full size. Attributes of other types than ExrValue's are left out. Fails on a file that is missing,
+/// damaged or cut short, has no such part, is deep, has subsampled channels, or is wider or higher than 2^20
+/// pixels.
+Result<ExrPicture> read_exr(const std::filesystem::path& path, std::size_t part = 0);
 
 /// The header and the layout alone, without decoding a pixel.
 struct ExrInfo {
   ImageLayout layout;
   ExrHeader header;
+  std::string part;       ///< its name; a file of one part need not have one
+  std::size_t parts = 1;  ///< how many the file has
+  std::string storage;    ///< in words: "scanlines", "tiles of 64 x 64"...
+  bool tiled = false;     ///< in tiles, not in scanlines
+  bool has_levels =
+      false;  ///< the picture is there in smaller sizes too (mip-mapped), which read_exr does not give
+  float pixel_aspect = 1.0F;  ///< width of a pixel by its height
+  /// x and y of red, green, blue and white; Rec.709's and D65's where the file does not say.
+  std::array<float, 8> chromaticities{};
+  std::string unreadable;  ///< why read_exr fails on it, by its header: "it is a deep picture"; or empty
 };
+
+/// That of the first part. What read_exr fails on by the header, this fails on.
 Result<ExrInfo> read_exr_info(const std::filesystem::path& path);
 
+/// Those of all parts, in the file's order, also of parts that read_exr does not read. Never empty.
+Result<std::vector<ExrInfo>> read_exr_parts(const std::filesystem::path& path);
+
 /// The same of a file like those of write_exr whose pixels are all there: fails besides when a chunk is
-/// missing, out of place or cut short, as in a copy that was interrupted, and on a file of another
-/// compression. Reads the heads of the chunks, not their contents.
+/// missing, out of place or cut short, as in a copy that was interrupted, and on a file of several
+/// parts or of another compression. Reads the heads of the chunks, not their contents.
 Result<ExrInfo> read_whole_exr_info(const std::filesystem::path& path);
 
-/// Reads rows of a file that need not fit into memory as a whole. What read_exr fails on, this fails on: in
+/// Reads rows of a part that need not fit into memory as a whole. What read_exr fails on, this fails on: in
 /// `open` for the header, in `read_rows` for the rows.
 class ExrReader {
  public:
-  static Result<ExrReader> open(const std::filesystem::path& path);
+  static Result<ExrReader> open(const std::filesystem::path& path, std::size_t part = 0);
 
   ExrReader(ExrReader&&) noexcept;
   ExrReader& operator=(ExrReader&&) noexcept;
@@ -152,6 +168,9 @@ class ExrReader {
   /// The rows first <= j < first + count, which must lie in the data window, as planes in the order of the
   /// layout's channels: each of count * data.width() floats.
   Result<void> read_rows(int first, int count, std::span<const std::span<float>> planes);
+
+  /// All values of a channel of whole numbers, as Image keeps them.
+  Result<std::vector<std::uint32_t>> read_whole_numbers(std::size_t channel);
 
  private:
   class Implementation;

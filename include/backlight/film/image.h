@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,8 +27,9 @@ struct PixelBox {
 
 /// How a channel is stored in a file. In memory it is float in any case.
 enum class ChannelPrecision {
-  half,   ///< 11 significant bits, up to 65504: colour
-  single  ///< float: distances, times, positions, identifiers
+  half,    ///< 11 significant bits, up to 65504: colour
+  single,  ///< float: distances, times, positions, identifiers
+  whole    ///< unsigned integers of 32 bits: other programs' identifiers. Only read, never written
 };
 
 /// Whether half precision can hold the value: up to 65504. Infinities and NaNs have their counterparts in
@@ -82,6 +85,11 @@ class Image {
   [[nodiscard]] std::span<float> plane(std::size_t channel) { return planes_[channel]; }
   [[nodiscard]] std::span<const float> plane(std::size_t channel) const { return planes_[channel]; }
 
+  /// The values of a channel of whole numbers, of which its plane has the nearest floats: a float holds them
+  /// exactly up to 2^24 only. Empty for every other channel.
+  [[nodiscard]] std::span<const std::uint32_t> whole_numbers(std::size_t channel) const;
+  void set_whole_numbers(std::size_t channel, std::vector<std::uint32_t> values);
+
   /// The value at pixel (i, j) of the whole picture, which must lie in the data window.
   [[nodiscard]] float& at(std::size_t channel, int i, int j) { return planes_[channel][offset(i, j)]; }
   [[nodiscard]] float at(std::size_t channel, int i, int j) const { return planes_[channel][offset(i, j)]; }
@@ -95,6 +103,7 @@ class Image {
  private:
   ImageLayout layout_;
   std::vector<std::vector<float>> planes_;
+  std::map<std::size_t, std::vector<std::uint32_t>> whole_numbers_;
 };
 
 }  // namespace backlight

@@ -1,10 +1,19 @@
 #include "backlight/film/texture.h"
 
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfMultiPartOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <limits>
+#include <vector>
 
 #include "backlight/base/files.h"
 #include "backlight/film/display.h"
@@ -152,6 +161,46 @@ TEST_F(Textures, ExrStaysLinearAndExact) {
   ASSERT_TRUE(texture.ok()) << texture.error();
   EXPECT_EQ(texture.value().texel(0, 0), (Vec3{1e5F, 0.1F, -0.25F}));
   EXPECT_EQ(texture.value().texel(1, 0), (Vec3{0.5, 0.0, 0.0}));
+}
+
+// Two parts of one pixel: positions, and a colour.
+void write_two_parts(const std::filesystem::path& path) {
+  const std::array<std::array<const char*, 3>, 2> channels{{{"P.X", "P.Y", "P.Z"}, {"R", "G", "B"}}};
+  std::array<float, 3> values{0.25F, 0.5F, 0.75F};
+  std::vector<Imf::Header> headers(2, Imf::Header(1, 1));
+  for (std::size_t part = 0; part < 2; ++part) {
+    headers[part].setName(part == 0 ? "positions" : "colours");
+    headers[part].setType(Imf::SCANLINEIMAGE);
+    for (const char* name : channels[part]) headers[part].channels().insert(name, Imf::Channel(Imf::FLOAT));
+  }
+  Imf::MultiPartOutputFile file(path.c_str(), headers.data(), 2);
+  for (std::size_t part = 0; part < 2; ++part) {
+    Imf::FrameBuffer buffer;
+    for (std::size_t i = 0; i < 3; ++i) {
+      buffer.insert(channels[part][i],
+                    Imf::Slice::Make(Imf::FLOAT, &values[i], Imath::V2i(0, 0), std::int64_t{1}, 1));
+    }
+    Imf::OutputPart out(file, static_cast<int>(part));
+    out.setFrameBuffer(buffer);
+    out.writePixels(1);
+    for (float& value : values) value += 1.0F;
+  }
+}
+
+TEST_F(Textures, TheColourOfAnExrIsFoundOrMissed) {
+  write_two_parts(folder / "parts.exr");
+  const Result<Texture> texture = load_texture(folder / "parts.exr");
+  ASSERT_TRUE(texture.ok()) << texture.error();
+  EXPECT_EQ(texture.value().texel(0, 0), (Vec3{1.25, 1.5, 1.75}));
+  // Channels of data are not taken for colours.
+  const Image data({{0, 0, 1, 1}, {0, 0, 1, 1}, {{"P.X", {}}, {"P.Y", {}}, {"P.Z", {}}, {"Z", {}}}, {}});
+  ASSERT_TRUE(write_exr(folder / "data.exr", data, {}).ok());
+  const std::string error = load_texture(folder / "data.exr").error();
+  EXPECT_NE(error.find("it has no channels R, G and B, nor Y; there are "), std::string::npos) << error;
+  Image grey({{0, 0, 1, 1}, {0, 0, 1, 1}, {{"Y", {}}, {"Z", {}}}, {}});
+  grey.at(0, 0, 0) = 0.5F;
+  ASSERT_TRUE(write_exr(folder / "grey.exr", grey, {}).ok());
+  EXPECT_EQ(load_texture(folder / "grey.exr").value().texel(0, 0), Vec3{0.5});
 }
 
 TEST_F(Textures, ACroppedExrIsRefused) {
