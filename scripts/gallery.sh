@@ -8,6 +8,9 @@
 #
 # Builds the program unless it is built; BACKLIGHT=/path/to/backlight uses another one. Figure 4 is drawn by gnuplot.
 set -euo pipefail
+# shellcheck source=scripts/find_program.sh
+source "$(dirname "$0")/find_program.sh"
+[[ -z ${BACKLIGHT:-} ]] || BACKLIGHT=$(find_program) || exit 2
 cd "$(dirname "$0")/.."
 
 refresh=no

@@ -11,19 +11,24 @@
 # two units of that, 2e-3 of itself. Data channels: by more than 1e-5 and more than 1e-5 of itself, some 100 roundings of
 # float. On one machine the pictures are the same bits; the thresholds are for another libm or compiler.
 set -euo pipefail
+start_folder=$PWD
 cd "$(dirname "$0")/.."
+source scripts/find_program.sh
 
+# This clone's own, whatever is in the PATH: it is what is tested.
 program=build/release/bin/backlight
 out=out/golden
 update=()
 while (($#)); do
   case $1 in
-    --program) program=$2 && shift 2 ;;
-    --out) out=$2 && shift 2 ;;
+    --program) program=$(cd "$start_folder" && find_program "$2") && shift 2 ;;
+    --out) out=$(cd "$start_folder" && realpath -m "$2") && shift 2 ;;
     --update) update=(--update) && shift ;;
     *) echo "scripts/golden.sh: unknown option '$1'; see the head of the file" >&2 && exit 2 ;;
   esac
 done
+
+program=$(find_program "$program") || exit 2
 
 rm -rf "$out"
 mkdir -p "$out/new"

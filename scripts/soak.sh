@@ -11,7 +11,10 @@ set -euo pipefail
 
 seconds=${1:-60}
 root=$(cd "$(dirname "$0")/.." && pwd)
-backlight=${2:-$root/build/release/bin/backlight}
+# shellcheck source=scripts/find_program.sh
+source "$root/scripts/find_program.sh"
+# This clone's own, whatever is in the PATH: it is what is tested.
+backlight=$(find_program "${2:-$root/build/release/bin/backlight}") || exit 2
 workers=3
 frames=20
 folder=$(mktemp -d "${TMPDIR:-/tmp}/backlight-soak-XXXXXX")

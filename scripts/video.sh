@@ -9,11 +9,15 @@
 # their sRGB values are what the video holds (H.264, Rec.709, marked with the sRGB transfer curve). Frames are ordered by
 # the number at the end of their names, and none may be missing between the first and the last: ffmpeg would end the
 # video there without a word. Needs ffmpeg.
+#
+# The program is FILE, $BACKLIGHT, the one in the PATH or build/release/bin/backlight of this clone: the first of them.
 set -euo pipefail
+# shellcheck source=scripts/find_program.sh
+source "$(dirname "$0")/find_program.sh"
 
 fail() { echo "scripts/video.sh: $1" >&2 && exit "${2:-2}"; }
 
-program=$(cd "$(dirname "$0")/.." && pwd)/build/release/bin/backlight
+program=''
 fps=25 output='' frames=() view=()
 while (($#)); do
   case $1 in
@@ -36,6 +40,7 @@ done
 [[ $output == *.mp4 ]] || fail "name the video with -o; it must end in .mp4"
 [[ $fps =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--fps: expected a number, not '$fps'"
 command -v ffmpeg >/dev/null || fail "ffmpeg is not installed" 4
+program=$(find_program "$program") || exit 4
 
 declare -A by_number=()
 numbers=()

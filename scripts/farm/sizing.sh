@@ -10,10 +10,13 @@
 #                        on the cluster of one-machine.sh)
 #   -h, --help           print this help
 #
-# Measures at 960x540, a sixteenth of the pixels; takes about a minute, on an idle machine. BACKLIGHT names another program than build/release/bin/backlight.
+# Measures at 960x540, a sixteenth of the pixels; takes about a minute, on an idle machine. The
+# program is $BACKLIGHT, the one in the PATH or build/release/bin/backlight of this clone, the first of them.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
-program=${BACKLIGHT:-$top/build/release/bin/backlight}
+# shellcheck source=scripts/find_program.sh
+source "$top/scripts/find_program.sh"
+program=$(find_program) || exit 2
 
 scene='' samples=16 length=60 task=0.85
 usage() { sed -n '2,/^set -/{/^set -/d;s/^# \{0,1\}//p}' "$0"; }

@@ -26,9 +26,12 @@
 # a task that is stopped (preempted, requeued, cancelled, out of time) leaves a partial image, which the next run finishes. So after any
 # trouble: the same command again.
 #
-# The program is build/release/bin/backlight of this clone, or $BACKLIGHT; the nodes must see it under the same path.
+# The program is $BACKLIGHT, the one in the PATH or build/release/bin/backlight of this clone, the first of them; the nodes must see
+# it under the same path.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=scripts/find_program.sh
+source "$here/../find_program.sh"
 
 usage() { sed -n '2,/^set -/{/^set -/d;s/^# \{0,1\}//p}' "$0"; }
 fail() { echo "scripts/farm/submit.sh: $*" >&2; exit 2; }
@@ -62,9 +65,7 @@ done
 [[ -z $video || $video == *.mp4 ]] || fail "--video: '$video' must end in .mp4"
 [[ -z $parts || -z $video ]] || fail "--video is of many images, --parts of one"
 
-program=${BACKLIGHT:-$here/../../build/release/bin/backlight}
-program=$(command -v "$program") || fail "no program ${BACKLIGHT:-build/release/bin/backlight}: build it with scripts/render.sh, or name it in BACKLIGHT"
-program=$(realpath "$program")
+program=$(find_program) || exit 2
 
 # What the tasks decide for themselves is left out; what they would all write into one file is refused.
 kept=()

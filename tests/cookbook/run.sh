@@ -5,11 +5,12 @@
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 program=$(realpath "$1")
-rm -rf "$2" && mkdir -p "$2/scripts" "$2/build/release/bin" && cd "$2"
+rm -rf "$2" && mkdir -p "$2/scripts" "$2/bin" && cd "$2"
 ln -s "$top/scenes" scenes
-cp "$top/scripts/video.sh" scripts/
-ln -s "$program" build/release/bin/backlight
-export PATH="$PWD/build/release/bin:$PATH" BACKLIGHT_MODULE_PATH=${BACKLIGHT_MODULE_PATH:-$(dirname "$program")/../lib/backlight}
+cp "$top"/scripts/{video,find_program}.sh scripts/
+# In the PATH and nowhere else: there is no build folder here for a script to fall back on.
+ln -s "$program" bin/backlight
+export PATH="$PWD/bin:$PATH" BACKLIGHT_MODULE_PATH=${BACKLIGHT_MODULE_PATH:-$(dirname "$program")/../lib/backlight}
 
 # recipe-1.sh, recipe-2.sh...: the blocks that begin with ```sh
 awk '/^```sh$/ { n++; inside = 1; next } /^```$/ { inside = 0 } inside { print > ("recipe-" n ".sh") }' "$top/docs/cookbook.md"
@@ -36,6 +37,26 @@ rm out/lamp/lamp.0005.exr out/lamp/lamp.0007.exr
 status=0 && message=$(scripts/video.sh out/lamp/*.exr -o out/hole.mp4 2>&1) || status=$?
 expect "status with a hole" 4 "$status"
 [[ $message == *"missing between 1 and 12: frame 5 7"* && ! -e out/hole.mp4 ]] || { echo "a hole: $message" >&2 && exit 1; }
+
+# Which program it runs: the one that is named, then the PATH's, then this folder's build.
+expect_program() { # STATUS "WORDS" command...: a program that says who it is, instead of a view
+  local status=0 message words=$2
+  message=$("${@:3}" 2>&1) || status=$?
+  [[ $status == "$1" && $message == *"$words"* ]] || { echo "expected '$words' and $1, found '$message' and $status" >&2 && exit 1; }
+}
+mkdir -p other build/release/bin
+for place in other build/release/bin; do
+  printf '#!/bin/sh\necho "this is %s"; exit 9\n' "$place" >"$place/backlight" && chmod +x "$place/backlight"
+done
+bare_path=${PATH#"$PWD/bin:"}
+make_video=(scripts/video.sh out/lamp/lamp.0001.exr -o out/who.mp4)
+expect_program 9 "this is other" env PATH="$PWD/other:$PATH" "${make_video[@]}"
+expect_program 9 "this is other" env BACKLIGHT=other/backlight "${make_video[@]}"
+expect_program 9 "this is other" env BACKLIGHT=nowhere "${make_video[@]}" --program other/backlight
+expect_program 9 "this is build/release/bin" env -u BACKLIGHT PATH="$bare_path" "${make_video[@]}"
+rm build/release/bin/backlight
+expect_program 4 "there is no program" env -u BACKLIGHT PATH="$bare_path" "${make_video[@]}"
+expect_program 0 "1 frames" "${make_video[@]}"
 
 # What the video shows: a grey of linear 0.18 is the sRGB signal 118.
 cat >grey.toml <<'TOML'
