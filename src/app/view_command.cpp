@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -79,6 +80,25 @@ std::string flags_of(const DisplayTransform& transform) {
   return text.str();
 }
 
+// The first part that has the colour of this view; else the first.
+std::size_t part_to_show(const std::vector<ExrInfo>& parts, std::size_t view) {
+  const auto has_colour = [view](const ExrInfo& part) {
+    const ImageLayout& layout = part.layout;
+    return part.unreadable.empty() && std::ranges::all_of(std::array{"R", "G", "B"}, [&](const char* name) {
+             return std::ranges::find(layout.channels, channel_name(name, layout.views, view),
+                                      &ChannelInfo::name) != layout.channels.end();
+           });
+  };
+  const auto found = std::ranges::find_if(parts, has_colour);
+  return found == parts.end() ? 0 : static_cast<std::size_t>(found - parts.begin());
+}
+
+Result<ExrPicture> read_shown(const fs::path& file, std::size_t view) {
+  const auto parts = read_exr_parts(file);
+  if (!parts.ok()) return parts.failure();
+  return read_exr(file, part_to_show(parts.value(), view));
+}
+
 // One transform for all the images, so that they can be compared, and a film does not flicker.
 Result<DisplayTransform> transform_of(const ViewOptions& options) {
   const bool expose_drago = options.tone == ToneCurve::drago && !options.exposure_stops;
@@ -86,7 +106,7 @@ Result<DisplayTransform> transform_of(const ViewOptions& options) {
                          (options.tone == ToneCurve::drago && !options.white);
   LuminanceCounts counts;
   for (const fs::path& file : automatic ? options.files : std::vector<fs::path>{}) {
-    const auto picture = read_exr(file);
+    const auto picture = read_shown(file, options.view);
     if (!picture.ok()) return picture.failure();
     if (const auto added = counts.add(picture.value().image, options.view); !added.ok()) {
       return Failure{file.string() + ": " + added.error()};
@@ -137,25 +157,24 @@ void add_legend(PixelBytes& pixels, const fs::path& file, const BlackCounts& cou
 }
 
 // What of the file the picture does not show, beside its data channels.
-void print_rest(const fs::path& file) {
+void print_rest(const fs::path& file, std::size_t view) {
   const auto parts = read_exr_parts(file);
   if (!parts.ok()) return;
-  const ExrInfo& first = parts.value().front();
-  if (first.parts > 1) {
-    std::cerr << file.string() << ": the first of " << first.parts << " parts is shown, '" << first.part
-              << "'\n";
+  const ExrInfo& part = parts.value()[part_to_show(parts.value(), view)];
+  if (part.parts > 1) {
+    std::cerr << file.string() << ": of " << part.parts << " parts, '" << part.part << "' is shown\n";
   }
-  if (first.pixel_aspect != 1.0F) {
+  if (part.pixel_aspect != 1.0F) {
     std::cerr << file.string() << ": shown with square pixels; the file has them "
-              << text_of(first.pixel_aspect) << " times as wide as high\n";
+              << text_of(part.pixel_aspect) << " times as wide as high\n";
   }
 }
 
 Result<PixelBytes> shown(const fs::path& file, const ViewOptions& options,
                          const DisplayTransform& transform) {
-  const auto picture = read_exr(file);
+  const auto picture = read_shown(file, options.view);
   if (!picture.ok()) return picture.failure();
-  if (options.verbosity != Verbosity::quiet) print_rest(file);
+  if (options.verbosity != Verbosity::quiet) print_rest(file, options.view);
   auto displayed = display_image(picture.value().image, transform, options.view);
   if (!displayed.ok()) return Failure{file.string() + ": " + displayed.error()};
   if (options.verbosity != Verbosity::quiet && transform.tone == ToneCurve::none) {

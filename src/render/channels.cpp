@@ -79,7 +79,9 @@ bool has_light_channels(const Scene& scene) {
 PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
     : image_(&image), first_(view * channels_of_one_view(scene).size()) {
   for (const DataChannel& channel : data_channels) {
-    if (asked_for(scene, channel.aov)) data_.push_back(channel.value);
+    if (!asked_for(scene, channel.aov)) continue;
+    if (channel.aov == "Z") distance_ = data_.size();
+    data_.push_back(channel.value);
   }
   for (std::size_t c = 0; c < 4; ++c) colour_[c] = image.plane(first_ + c).data();
 }
@@ -126,15 +128,13 @@ void PixelWriter::expect(std::size_t at, std::size_t columns) const {
   }
 }
 
-bool PixelWriter::write(std::size_t channel, int x, int y, double value) const {
-  const auto stored = static_cast<float>(value);
-  image_->at(first_ + channel, x, y) = stored;
-  return std::isfinite(stored);
-}
-
 bool PixelWriter::data(int x, int y, const PixelData& data) const {
   bool finite = true;
-  for (std::size_t i = 0; i < data_.size(); ++i) finite &= write(4 + i, x, y, data_[i](data));
+  for (std::size_t i = 0; i < data_.size(); ++i) {
+    const auto stored = static_cast<float>(data_[i](data));
+    image_->at(first_ + 4 + i, x, y) = stored;
+    finite &= std::isfinite(stored) || (i == distance_ && data.surface.object_id == 0);
+  }
   return finite;
 }
 

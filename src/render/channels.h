@@ -30,7 +30,8 @@ class PixelWriter {
  public:
   PixelWriter(const Scene& scene, Image& image, std::size_t view);
 
-  /// Each returns whether all it wrote is finite as a float. `at`: the image's offset().
+  /// Each returns whether all it wrote is finite as a float, or is as it should be: infinitely far, where the
+  /// ray meets nothing. `at`: the image's offset().
   bool colour(std::size_t at, const LinearRgb& rgb, double alpha) const {
     const float values[4] = {static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b),
                              static_cast<float>(alpha)};
@@ -51,12 +52,11 @@ class PixelWriter {
   std::uint64_t block(std::size_t at, std::size_t width, const TileLight& light, std::size_t first) const;
 
  private:
-  bool write(std::size_t channel, int x, int y, double value) const;
-
   Image* image_;
   std::size_t first_;             // channel
   std::array<float*, 4> colour_;  // planes
   std::vector<double (*)(const PixelData&)> data_;
+  std::size_t distance_ = ~std::size_t{0};  // which of them is Z
 };
 
 }  // namespace backlight

@@ -1,17 +1,43 @@
 #include "backlight/render/image_faults.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "backlight/film/compare.h"
 
 namespace backlight {
 namespace {
 
+// How great a channel's values may be, and whether they may be infinite: Z is where there is nothing.
+struct Allowed {
+  bool half;
+  bool infinite;
+
+  [[nodiscard]] bool is_number(float value) const {
+    return std::isfinite(value) || (infinite && value == std::numeric_limits<float>::infinity());
+  }
+};
+
+std::vector<Allowed> allowed_in(const ImageLayout& layout) {
+  std::vector<Allowed> allowed;
+  for (const ChannelInfo& channel : layout.channels) {
+    allowed.push_back(
+        {channel.precision == ChannelPrecision::half, names_channel("Z", channel.name, layout.views)});
+  }
+  return allowed;
+}
+
 // Nearly every image is.
-bool is_without_fault(const Image& image) {
+bool is_without_fault(const Image& image, const std::vector<Allowed>& allowed) {
   for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
-    const bool half = image.layout().channels[channel].precision == ChannelPrecision::half;
-    const float greatest = half ? greatest_half : std::numeric_limits<float>::max();
-    if (!all_within(image.plane(channel), greatest)) return false;
+    const Allowed& of = allowed[channel];
+    const auto is_number = [&of](float value) { return of.is_number(value); };
+    const bool good = of.infinite ? std::ranges::all_of(image.plane(channel), is_number)
+                                  : all_within(image.plane(channel),
+                                               of.half ? greatest_half : std::numeric_limits<float>::max());
+    if (!good) return false;
   }
   return true;
 }
@@ -20,7 +46,8 @@ bool is_without_fault(const Image& image) {
 
 ImageFaults faults_of(const Image& image) {
   ImageFaults faults;
-  if (is_without_fault(image)) return faults;
+  const std::vector<Allowed> allowed = allowed_in(image.layout());
+  if (is_without_fault(image, allowed)) return faults;
   const PixelBox& data = image.layout().data;
   for (int y = data.y0; y < data.y1; ++y) {
     for (int x = data.x0; x < data.x1; ++x) {
@@ -28,9 +55,8 @@ ImageFaults faults_of(const Image& image) {
       bool fits = true;
       for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
         const float value = image.at(channel, x, y);
-        finite &= std::isfinite(value);
-        const bool half = image.layout().channels[channel].precision == ChannelPrecision::half;
-        fits &= !half || fits_half(value);
+        finite &= allowed[channel].is_number(value);
+        fits &= !allowed[channel].half || fits_half(value);
       }
       if (!finite && faults.non_finite++ == 0) faults.first_non_finite = {x, y};
       if (finite && !fits) ++faults.beyond_half;

@@ -32,6 +32,7 @@ void ViewRenderer::write_all(ThreadMemory& m, const std::vector<SurfaceRecord>* 
   for (std::size_t k = 0; k < count; ++k) {
     const auto [x, y] = pixels[k];
     PixelEstimate pixel = estimate(k);
+    // Where there are stars there is a sky: what is not covered is beyond the projection's edge.
     if (has_stars_ && pixel.coverage > 0.0) pixel.colour += tracer_.stars(x, y, eye_, m.scratch);
     const auto at = static_cast<std::size_t>((y - window.y0) * window.width() + (x - window.x0));
     bool finite = writer.colour(at, pixel.colour, pixel.coverage);
@@ -145,8 +146,8 @@ void ViewRenderer::trace_point(const ImagePoint& point, Scratch& scratch, PixelS
   const Effects& effects = effects_at(tracer_.scene(), point);
   const auto ray = camera_ray(tracer_.scene().camera, point, effects, eye_);
   if (!ray) return;
-  sample.covered = true;
-  sample.colour = tracer_.colour(*ray, effects, scratch);
+  const RayLight light = tracer_.light(*ray, effects, scratch);
+  sample = {light.colour, light.opaque};
 }
 
 void ViewRenderer::tile_in_sheets(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {

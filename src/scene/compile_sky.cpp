@@ -115,6 +115,7 @@ void compile_sky(Compilation& c) {
     sky.texture = read_texture(table, "texture", c.cache);
     sky.texture_scale = radiance;
   }
+  sky.given = !given.empty() || table.node_of("stars") != nullptr;
   sky.emits = radiance > 0.0 && (sky.texture != nullptr || sky.radiance.rgb != LinearRgb{0.0});
   read_stars_key(c, table);
 }

@@ -60,7 +60,8 @@ KeyTable background() {
       "background",
       "[background]",
       "What is at infinity in every direction, at rest in its frame; black without `color`, `texture` or "
-      "`temperature`, of which at most one is given.",
+      "`temperature`, of which at most one is given. With one of these or `stars`, be it black, the picture "
+      "is opaque where a ray meets nothing (A = 1); else A is 0 there.",
       {numbers("color", 3, Nothing{}, "", "Radiance: linear red, green, blue (Rec.709).", at_least(0)),
        structured("texture", {{ValueKind::path}},
                   "An equirectangular image of radiances: the middle of it is seen along +z, the upper edge "

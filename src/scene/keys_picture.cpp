@@ -77,13 +77,13 @@ KeyTable film() {
         {{ValueKind::choices}},
         Nothing{},
         "",
-        "Channels besides the colour, of the ray through the pixel's centre: light-travel distance, Doppler "
-        "factor, world time and own time of the emission, point and normal in the object's rest frame, the "
-        "object's number in the file, 1 where a root is not resolved (`unresolved`, see the shape implicit), "
-        "and the "
-        "light: `light.N`, how many lights reach the point (its own one "
-        "of them; -1 where there is no surface), and `light.Y`, the luminance it would have if no colour "
-        "were shifted. `samples.N` is the number of samples that the pixel got.",
+        "Channels besides the colour, of the ray through the pixel's centre: light-travel distance (infinite "
+        "where the ray meets nothing), Doppler factor, world time and own time of the emission, point and "
+        "normal in the object's rest frame, the object's number in the file (0 where there is none: there, "
+        "all that is of a surface is 0 too), 1 where a root is not resolved (`unresolved`, see the shape "
+        "implicit), and the light: `light.N`, how many lights reach the point (its own one of them; -1 where "
+        "there is no surface), and `light.Y`, the luminance it would have if no colour were shifted. "
+        "`samples.N` is the number of samples that the pixel got.",
         {},
         {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId", "unresolved", "light",
          "samples"}}},

@@ -1,8 +1,10 @@
 // docs/scene-reference.md, made from the table of keys.
+#include <algorithm>
 #include <variant>
 
 #include "backlight/scene/keys.h"
 #include "backlight/scene/schema.h"
+#include "key_builders.h"
 #include "words.h"
 
 namespace backlight {
@@ -27,10 +29,18 @@ A scene is a TOML 1.0 file. `backlight check SCENE.toml` says whether it is righ
 - `-D path=value` on the command line replaces a value: `-D camera.fov=40`, `-D c=5`, `-D params.v=0.9`,
   `-D object.tram.velocity=[0.9,0,0]` by the object's name, `-D light.1.intensity=50` by its number in the file.
 
-How things move, in every table that has these keys: `velocity` (compare with `c`), or `beta` (in units of `c`), or one
-of `gamma`, `celerity` and `rapidity` together with `along`. Velocities are relative to the world. The last three are
-exact for any speed; `celerity` and `rapidity` may be negative, against `along`.
+## How things move
+
+In every table that has these keys: `velocity`, or `beta`, or one of `gamma`, `celerity` and `rapidity` together with
+`along`. Velocities are relative to the world. The last three are exact for any speed.
 )page";
+
+// Text within a cell of a table, where a bar would begin the next one.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped;
+}
 
 std::string kind_of(const Key& key) {
   std::vector<std::string> kinds;
@@ -101,6 +111,49 @@ std::string meaning_of(const Key& key) {
   return text;
 }
 
+constexpr std::string_view head_of_rows =
+    "\n| key | type | default | unit | meaning |\n| --- | --- | --- | --- | --- |\n";
+
+std::string row(const Key& key) {
+  return "| `" + std::string(key.name) + "` | " + cell(kind_of(key)) + " | " + cell(default_of(key)) + " | " +
+         cell(key.unit) + " | " + cell(meaning_of(key)) + " |\n";
+}
+
+std::vector<Key> motion_keys() {
+  std::vector<Key> keys;
+  key_builders::add_motion(keys);
+  return keys;
+}
+
+// The rows of a table; those of motion, which many have, are told once, in a section of their own.
+std::string rows(const std::vector<Key>& keys) {
+  static const std::vector<Key> motion = motion_keys();
+  const auto tells_motion = [](const Key& key) {
+    return std::ranges::any_of(
+        motion, [&key](const Key& of) { return of.name == key.name && of.meaning == key.meaning; });
+  };
+  std::string text(head_of_rows);
+  std::string names;
+  for (const Key& key : keys) {
+    if (tells_motion(key)) {
+      names += (names.empty() ? "`" : ", `") + std::string(key.name) + "`";
+      if (&key == &keys.back() || !tells_motion(*(&key + 1))) {
+        text += "| " + names + " |  |  |  | Its motion: [how things move](#how-things-move). |\n";
+        names.clear();
+      }
+    } else {
+      text += row(key);
+    }
+  }
+  return text;
+}
+
+std::string motion_section() {
+  std::string text(head_of_rows);
+  for (const Key& key : motion_keys()) text += row(key);
+  return text;
+}
+
 std::string section(const KeyTable& table) {
   std::string text = "\n## `" + std::string(table.heading) + "`";
   if (table.name.empty()) text = "\n## The top of the file";
@@ -110,19 +163,13 @@ std::string section(const KeyTable& table) {
     text = "\n### " + std::string(owner->selector) + " = \"" + std::string(table.name.substr(dot + 1)) + "\"";
   }
   text += "\n\n" + std::string(table.meaning) + "\n";
-  if (table.keys.empty()) return text;
-  text += "\n| key | type | default | unit | meaning |\n| --- | --- | --- | --- | --- |\n";
-  for (const Key& key : table.keys) {
-    text += "| `" + std::string(key.name) + "` | " + kind_of(key) + " | " + default_of(key) + " | " +
-            std::string(key.unit) + " | " + meaning_of(key) + " |\n";
-  }
-  return text;
+  return table.keys.empty() ? text : text + rows(table.keys);
 }
 
 }  // namespace
 
 std::string reference_markdown() {
-  std::string page(introduction);
+  std::string page = std::string(introduction) + motion_section();
   for (const KeyTable& table : key_tables()) page += section(table);
   return page;
 }

@@ -408,7 +408,13 @@ class SheetPainter {
   }
 
   void without_surface(const TileSheet& sheet, std::uint64_t mask, bool far) {
-    if (!far && !records_ && !tracer_.scene().sky.emits) {
+    const Sky& sky = tracer_.scene().sky;
+    if (!far && !sky.given) {
+      for (std::uint64_t left = mask; left != 0; left &= left - 1) {
+        light_.covered[static_cast<std::size_t>(sheet.place[__builtin_ctzll(left)])] = 0;
+      }
+    }
+    if (!far && !records_ && !sky.emits) {
       for (; mask != 0; mask &= mask - 1) {
         light_.set_colour(static_cast<std::size_t>(sheet.place[__builtin_ctzll(mask)]), LinearRgb{0.0});
       }

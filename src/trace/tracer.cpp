@@ -50,12 +50,13 @@ Scratch Tracer::make_scratch(InstructionSet set) const {
   return {hub_, *scene_, spectral_ ? wavelengths_.nm().size() : 0, set};
 }
 
-LinearRgb Tracer::colour(const CameraRay& ray, const Effects& effects, Scratch& scratch) const {
+RayLight Tracer::light(const CameraRay& ray, const Effects& effects, Scratch& scratch) const {
   // The ray in every frame with surfaces (docs/physics.md equations (3), (4)), the first hit in each back
   // along the past light cone, and the nearest of them: the smallest λ.
   scratch.rays.start(ray);
   ++scratch.counts.primary;
-  return colour_of(ray, first_hit(hub_, scratch.rays), effects, scratch);
+  const FirstHit hit = first_hit(hub_, scratch.rays);
+  return {colour_of(ray, hit, effects, scratch), hit.found() || scene_->sky.given};
 }
 
 LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Effects& effects,

@@ -200,7 +200,7 @@ TEST_F(CompareParts, IsInTroubleWithWhatItCannotLookAt) {
 
 TEST_F(CompareParts, AreNotPassedOverByOtherCommands) {
   write_parts("a.exr", {{"rgba", "R"}, {"depth", "Z"}});
-  expect(4, {"view", "a.exr"}, {"a.exr"});
+  expect(4, {"view", "a.exr"}, {"a.exr: the picture has no channel G"});
   // An image of ours that was put into a file with another one is not the image that would be rendered.
   write_scene("scene.toml", "");
   ASSERT_EQ(run({"scene.toml", "-r", "8x6", "-o", "scene.exr"}).code, 0);
@@ -209,7 +209,7 @@ TEST_F(CompareParts, AreNotPassedOverByOtherCommands) {
   const std::string two = "oiiotool '" + file + "' --attrib oiio:subimagename one '" + file +
                           "' --attrib oiio:subimagename two --siappend -o '" + path("two.exr") + "'";
   ASSERT_EQ(std::system(two.c_str()), 0);
-  expect(0, {"view", "two.exr"}, {"the first of 2 parts is shown"});
+  expect(0, {"view", "two.exr"}, {"of 2 parts, 'one' is shown"});
   expect(1, {"assemble", "two.exr", "-o", "whole.exr"}, {"two.exr has 2 parts"});
   std::filesystem::copy_file(path("two.exr"), file, std::filesystem::copy_options::overwrite_existing);
   expect(0, {"scene.toml", "-r", "8x6", "-o", "scene.exr", "--skip-existing"}, {});

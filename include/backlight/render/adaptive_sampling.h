@@ -18,8 +18,8 @@ namespace backlight {
 
 /// One sample of the image.
 struct PixelSample {
-  Vec3 colour{0.0};      ///< film colour; black where the projection shows nothing
-  bool covered = false;  ///< whether it shows anything
+  Vec3 colour{0.0};      ///< film colour; black where there is nothing
+  bool covered = false;  ///< whether a surface is there, or a background that the scene gives
 };
 
 /// Traces the rays through these points of the image into `samples`, in order. Returns false when it was
@@ -30,7 +30,7 @@ using TracePoints =
 /// What its samples say of a pixel.
 struct PixelEstimate {
   Vec3 colour{0.0};       ///< the estimate of its mean
-  double coverage = 0.0;  ///< share of it that the projection shows
+  double coverage = 0.0;  ///< share of it that is covered: alpha
   int samples = 0;        ///< how many there are
   bool at_limit = false;  ///< most_adaptive_samples were not enough for the error asked for
 };

@@ -105,6 +105,7 @@ struct Star {
 /// What is at infinity behind everything, at rest in its own frame.
 struct Sky {
   int frame = 0;
+  bool given = false;  ///< the scene has one, be it black: rays that meet nothing see it
   bool emits = false;
   Colour radiance;                         ///< uniform: colour or blackbody
   std::shared_ptr<const Texture> texture;  ///< equirectangular, in the frame's axes, or null

@@ -23,7 +23,7 @@ struct TilePixel {
 /// One sample of each pixel of a tile.
 struct TileLight {
   std::array<std::vector<double>, 3> rgb;  ///< what Tracer::colour gives for its ray; 0 where there is none
-  std::vector<std::uint8_t> covered;       ///< whether the projection shows anything there
+  std::vector<std::uint8_t> covered;       ///< whether it is opaque (RayLight), for alpha
   std::vector<SurfaceRecord> record;       ///< what Tracer::surface gives, when asked for
 
   [[nodiscard]] LinearRgb colour(std::size_t pixel) const {

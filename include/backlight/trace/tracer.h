@@ -1,6 +1,7 @@
 // From a camera ray to the light that it carries.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "backlight/trace/sky.h"
@@ -9,10 +10,11 @@
 namespace backlight {
 
 /// What is known of the surface that a ray meets, as written to the EXR's data channels
-/// (docs/scene-reference.md). Zero where it meets none, but for the sky's Doppler factor.
+/// (docs/scene-reference.md). Zero where it meets none, but for the distance and the sky's Doppler factor.
 struct SurfaceRecord {
-  int object_id = 0;           ///< 1, 2, ... in file order; 0 = nothing
-  double distance = 0.0;       ///< Z: light-travel distance to the hit, camera frame
+  int object_id = 0;  ///< 1, 2, ... in file order; 0 = nothing
+  /// Z: light-travel distance to the hit, camera frame; infinite where there is none
+  double distance = std::numeric_limits<double>::infinity();
   double doppler = 0.0;        ///< ω_camera/ω_object
   double emission_time = 0.0;  ///< world time of the emission event, scene seconds
   double proper_time = 0.0;    ///< the object's frame time of it, scene seconds
@@ -21,6 +23,12 @@ struct SurfaceRecord {
   Vec3 normal{0.0};            ///< N, facing the ray, in the object's rest frame
   int lamps = -1;              ///< lights that reach the point, own emission one of them; -1: no surface
   double unshifted = 0.0;      ///< luminance of the film colour, had no wavelength been shifted on its way
+};
+
+/// What a ray brings.
+struct RayLight {
+  LinearRgb colour{0.0};  ///< scene-linear film colour, stars apart
+  bool opaque = false;    ///< it met a surface, or a background that the scene gives: for alpha
 };
 
 /// Traces rays of one image. Immutable; each thread brings its own Scratch.
@@ -32,8 +40,11 @@ class Tracer {
 
   [[nodiscard]] Scratch make_scratch(InstructionSet set = InstructionSet::widest) const;
 
-  /// Scene-linear film colour of the light along `ray`, stars apart.
-  LinearRgb colour(const CameraRay& ray, const Effects& effects, Scratch& scratch) const;
+  /// The light along `ray`.
+  RayLight light(const CameraRay& ray, const Effects& effects, Scratch& scratch) const;
+  LinearRgb colour(const CameraRay& ray, const Effects& effects, Scratch& scratch) const {
+    return light(ray, effects, scratch).colour;
+  }
 
   /// The same when it is known what the ray meets first: `hit`, or nothing.
   LinearRgb colour_of(const CameraRay& ray, const FirstHit& hit, const Effects& effects,

@@ -118,6 +118,7 @@ TEST(ImageFaults, AreCountedByPixel) {
   image.at(1, 3, 4) = -std::numeric_limits<float>::infinity();
   image.at(0, 8, 8) = -70000.0F;
   image.at(1, 2, 2) = 70000.0F;
+  image.at(1, 6, 6) = std::numeric_limits<float>::infinity();  // nothing is there: no fault
   const ImageFaults faults = faults_of(image);
   EXPECT_EQ(faults.non_finite, 2U);
   EXPECT_EQ(faults.first_non_finite, std::make_pair(3, 4));

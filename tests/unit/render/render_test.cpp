@@ -14,7 +14,7 @@ Scene empty_scene() {
   scene.film = {40, 30, 4, 0, {"Z", "objectId"}};
   scene.camera.lens.width = 40;
   scene.camera.lens.height = 30;
-  scene.sky.emits = true;
+  scene.sky.given = scene.sky.emits = true;
   scene.sky.radiance = {Spectrum::d65(), LinearRgb{1.0}};
   return scene;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "backlight/base/files.h"
@@ -106,6 +107,37 @@ TEST(Reference, PageIsUpToDate) {
   ASSERT_TRUE(page.ok()) << page.error();
   EXPECT_EQ(page.value(), reference_markdown())
       << "write it anew: backlight schema --markdown > docs/scene-reference.md";
+}
+
+// A row whose cells are more or fewer than its table's head is cut, or shifted, wherever the page is read.
+TEST(Reference, RowsHaveAsManyCellsAsTheirHeads) {
+  std::istringstream page(reference_markdown());
+  std::ptrdiff_t bars = 0;  // of the table's head; 0 outside of tables
+  int rows = 0;
+  for (std::string line; std::getline(page, line); rows += bars > 0 ? 1 : 0) {
+    std::ptrdiff_t of_line = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      of_line += line[i] == '|' && (i == 0 || line[i - 1] != '\\') ? 1 : 0;
+    }
+    if (!line.starts_with('|')) {
+      bars = 0;
+      continue;
+    }
+    if (bars == 0) bars = of_line;
+    EXPECT_EQ(of_line, bars) << line;
+  }
+  EXPECT_GT(rows, 100);
+}
+
+TEST(Reference, TellsTheKeysOfMotionOnce) {
+  const std::string page = reference_markdown();
+  for (const std::string key : {"beta", "celerity", "rapidity"}) {
+    const std::string row = "\n| `" + key + "` |";
+    const std::size_t first = page.find(row);
+    ASSERT_NE(first, std::string::npos) << key;
+    EXPECT_EQ(page.find(row, first + 1), std::string::npos) << key;
+  }
+  EXPECT_NE(page.find("[how things move](#how-things-move)"), std::string::npos);
 }
 
 }  // namespace
