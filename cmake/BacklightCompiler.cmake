@@ -24,6 +24,11 @@ elseif(BACKLIGHT_SANITIZE)
   message(FATAL_ERROR "BACKLIGHT_SANITIZE is '${BACKLIGHT_SANITIZE}'; expected address, thread or nothing")
 endif()
 
+if(BACKLIGHT_SANITIZE)
+  target_sources(backlight_compiler INTERFACE
+    $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${CMAKE_CURRENT_LIST_DIR}/sanitizer_hooks.cpp>)
+endif()
+
 # Options of files whose kernels are for wider registers than every machine has. They are optimised in every kind of build, so
 # that nothing of them is left as a function of its own that the linker might give to other files. gcc 12 believes a register that its own
 # intrinsics leave undefined on purpose to be uninitialised (GCC bug 105593).

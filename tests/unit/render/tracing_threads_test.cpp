@@ -14,7 +14,7 @@ Scene empty_scene(double brightness) {
   scene.film = {70, 50, 2, 0, {"Z"}};
   scene.camera.lens.width = 70;
   scene.camera.lens.height = 50;
-  scene.sky.emits = true;
+  scene.sky.given = scene.sky.emits = true;
   scene.sky.radiance = {Spectrum::d65(), LinearRgb{brightness}};
   return scene;
 }
