@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <mutex>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -87,12 +86,19 @@ bool is_large(const Image& image) {
 }
 
 // How many threads of OpenEXR's own, which all files of the process share, help with a file. They are started
-// by the first file that asks for any.
+// by the first file that asks for any; where they cannot be, each file is compressed by the thread that
+// writes it.
 int helpers_of(int threads) {
   if (threads <= 1) return 0;
-  static std::once_flag once;
-  std::call_once(once, [&] { Imf::setGlobalThreadCount(threads); });
-  return threads;
+  static const bool are_there = [&] {
+    try {
+      Imf::setGlobalThreadCount(threads);
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }();
+  return are_there ? threads : 0;
 }
 
 }  // namespace
