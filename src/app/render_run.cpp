@@ -43,6 +43,11 @@ std::filesystem::path claim_path(const PlannedImage& image) {
   return image.exr.string() + ".claim";
 }
 
+std::string no_memory_for(const FilmSettings& film) {
+  return "not enough memory for an image of " + std::to_string(film.width) + "x" +
+         std::to_string(film.height) + " pixels; render it in parts with --crop";
+}
+
 PixelBox one_pixel(int x, int y) {
   return {x, y, x + 1, y + 1};
 }
@@ -75,7 +80,7 @@ int RenderRun::run(Scene first) {
   if (outcome == Outcome::stopped) return exit_stopped + stop_signal();
   if (outcome == Outcome::file_trouble || deliveries_.has_failed() || lost_statistics_)
     return exit_file_trouble;
-  return outcome == Outcome::made ? exit_success : exit_frame_failed;
+  return outcome == Outcome::made && !lacked_memory_ ? exit_success : exit_frame_failed;
 }
 
 // Images can be traced with fewer threads than were asked for, and with none but this one.
@@ -236,8 +241,7 @@ RenderRun::Outcome RenderRun::explained(const PlannedImage& image, const FilmSet
   try {
     return step();
   } catch (const std::bad_alloc&) {
-    what = "not enough memory for an image of " + std::to_string(film.width) + "x" +
-           std::to_string(film.height) + " pixels; render it in parts with --crop";
+    what = no_memory_for(film);
   } catch (const PixelFailure& failure) {
     what = failure.what();
     crop = one_pixel(failure.x, failure.y);
@@ -344,8 +348,23 @@ RenderRun::Outcome RenderRun::deliver(const std::shared_ptr<Work>& work) {
   const Image& image = work->partial.image;
   const std::size_t bytes = image.channel_count() * image.plane(0).size_bytes();
   deliveries_.add(
-      bytes, [this, work] { return store(*work); },
-      [this, work](const Result<void>& stored) { return conclude(*work, stored); });
+      bytes,
+      [this, work]() -> Result<void> {
+        try {
+          return store(*work);
+        } catch (const std::bad_alloc&) {
+          work->lacks_memory = true;
+          return {};
+        }
+      },
+      [this, work](const Result<void>& stored) -> Result<void> {
+        try {
+          if (!work->lacks_memory) return conclude(*work, stored);
+        } catch (const std::bad_alloc&) {  // for what is told of it
+        }
+        tell_of_lack(*work);
+        return {};
+      });
   if (work->image == &images_.back()) deliveries_.wait();  // the end that progress tells is the end
   progress_.end_image();
   return deliveries_.has_failed() ? Outcome::file_trouble : Outcome::made;
@@ -372,6 +391,13 @@ Result<void> RenderRun::conclude(Work& work, const Result<void>& stored) {
   }
   work.claim.reset();
   return stored;
+}
+
+// The other images may have enough.
+void RenderRun::tell_of_lack(Work& work) {
+  lacked_memory_ = true;
+  work.claim.reset();
+  progress_.say("backlight: error: " + work.image->exr.string() + ": " + no_memory_for(work.scene.film));
 }
 
 // Images matter more than what is told of them: they are all made, and the exit status tells of the loss.

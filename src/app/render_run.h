@@ -48,7 +48,8 @@ class RenderRun {
     std::unique_ptr<Claim> claim;  ///< null: without
     RenderStatistics statistics;
     ImageFaults faults;
-    std::string record;  ///< the object of --stats
+    bool lacks_memory = false;  ///< to be stored
+    std::string record;         ///< the object of --stats
   };
 
   bool begin_threads();
@@ -69,6 +70,7 @@ class RenderRun {
   Outcome deliver(const std::shared_ptr<Work>& work);
   [[nodiscard]] Result<void> store(Work& work) const;
   Result<void> conclude(Work& work, const Result<void>& stored);
+  void tell_of_lack(Work& work);
   void record(Work& work);
   Outcome skip(const PlannedImage& image, const std::string& why);
   Outcome trouble(const std::string& what);
@@ -87,6 +89,7 @@ class RenderRun {
   StatisticsFile statistics_;
   ProgressReporter progress_;
   bool lost_statistics_ = false;
+  bool lacked_memory_ = false;  // for an image that was traced
   std::optional<Scene> first_;
   bool has_stopped_ = false;
   double last_seconds_ = 1.0;                  // that the image before took

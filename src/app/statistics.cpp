@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "backlight/base/interrupted.h"
 #include "backlight/base/json_text.h"
 #include "strategy_words.h"
 
@@ -109,8 +110,8 @@ Result<StatisticsFile> StatisticsFile::open(const std::filesystem::path& path, b
   const bool to_output = path == "-";
   statistics.path_ = to_output ? "standard output" : path;
   const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (append ? O_APPEND : O_TRUNC);
-  statistics.descriptor_ =
-      to_output ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0) : ::open(path.c_str(), flags, 0666);
+  statistics.descriptor_ = to_output ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+                                     : unless_interrupted([&] { return ::open(path.c_str(), flags, 0666); });
   if (statistics.descriptor_ < 0) return cannot_write(statistics.path_);
   return statistics;
 }
@@ -132,8 +133,8 @@ Result<void> StatisticsFile::write(const std::string& line) {
   if (descriptor_ < 0) return {};
   const std::string whole = line + '\n';
   for (std::string_view rest = whole; !rest.empty();) {
-    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
+    const ssize_t written =
+        unless_interrupted([&] { return ::write(descriptor_, rest.data(), rest.size()); });
     if (written < 0) return cannot_write(path_);
     rest.remove_prefix(static_cast<std::size_t>(written));
   }

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "backlight/base/interrupted.h"
 #include "claim_contents.h"
 
 namespace backlight {
@@ -27,14 +28,6 @@ Failure cannot_claim(const fs::path& file, int error_number) {
   return cannot_claim(file, std::generic_category().message(error_number));
 }
 
-// A system call once more where a signal came in between.
-template <class Call>
-auto repeated(const Call& call) {
-  auto result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
-
 /// The file of a claim at one moment.
 struct Look {
   std::string contents;
@@ -46,7 +39,7 @@ ssize_t read_begin(int descriptor, std::string& contents) {
   std::array<char, 4096> bytes{};
   while (contents.size() < bytes.size()) {
     const ssize_t count =
-        repeated([&] { return ::read(descriptor, bytes.data(), bytes.size() - contents.size()); });
+        unless_interrupted([&] { return ::read(descriptor, bytes.data(), bytes.size() - contents.size()); });
     if (count < 0) return -1;
     if (count == 0) break;
     contents.append(bytes.data(), static_cast<std::size_t>(count));
@@ -72,8 +65,8 @@ Result<std::optional<Look>> look_at(const fs::path& file) {
                               : S_ISLNK(status.st_mode) ? "a symbolic link has that name"
                                                         : "it is not a regular file");
   }
-  const int descriptor =
-      repeated([&] { return ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC); });
+  const int descriptor = unless_interrupted(
+      [&] { return ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC); });
   Look look;
   const bool is_read =
       descriptor >= 0 && ::fstat(descriptor, &status) == 0 && read_begin(descriptor, look.contents) >= 0;
@@ -107,10 +100,11 @@ class OwnFile {
  public:
   explicit OwnFile(const fs::path& file) : path_(name_beside(file)) {
     const fs::path folder = folder_of(file);
-    descriptor_ = repeated([&] { return ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666); });
-    if (descriptor_ >= 0) return;
     descriptor_ =
-        repeated([&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); });
+        unless_interrupted([&] { return ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666); });
+    if (descriptor_ >= 0) return;
+    descriptor_ = unless_interrupted(
+        [&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); });
     is_named_ = descriptor_ >= 0;
     if (descriptor_ < 0) error_ = errno;
   }
@@ -135,17 +129,18 @@ class OwnFile {
  private:
   [[nodiscard]] int write(std::string_view bytes) const {
     while (!bytes.empty()) {
-      const ssize_t written = repeated([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
+      const ssize_t written =
+          unless_interrupted([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
       if (written <= 0) return written < 0 ? errno : ENOSPC;
       bytes.remove_prefix(static_cast<std::size_t>(written));
     }
     // A network file system may have written nothing yet, and says only at the end that its disk is full.
-    return repeated([&] { return ::fsync(descriptor_); }) == 0 || errno == EINVAL ? 0 : errno;
+    return unless_interrupted([&] { return ::fsync(descriptor_); }) == 0 || errno == EINVAL ? 0 : errno;
   }
 
   [[nodiscard]] int link_to(const fs::path& file) const {
     const std::string nameless = "/proc/self/fd/" + std::to_string(descriptor_);
-    const int result = repeated([&] {
+    const int result = unless_interrupted([&] {
       return is_named_ ? ::link(path_.c_str(), file.c_str())
                        : ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, file.c_str(), AT_SYMLINK_FOLLOW);
     });
@@ -159,8 +154,8 @@ class OwnFile {
   // No links on this file system (FAT), or no /proc: the next best thing.
   [[nodiscard]] int make_without_links(const fs::path& file, const std::string& contents) {
     ::close(std::exchange(descriptor_, -1));
-    descriptor_ =
-        repeated([&] { return ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
+    descriptor_ = unless_interrupted(
+        [&] { return ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
     if (descriptor_ < 0) return errno;
     const int error_number = write(contents);
     if (error_number != 0) ::unlink(file.c_str());
@@ -177,7 +172,7 @@ class OwnFile {
 // that one is put back. (Should a third have claimed in this moment, the second has lost, and will see it.)
 Result<void> remove_stale(const fs::path& file, const std::string& contents) {
   const fs::path aside = name_beside(file);
-  if (::rename(file.c_str(), aside.c_str()) != 0) {
+  if (unless_interrupted([&] { return ::rename(file.c_str(), aside.c_str()); }) != 0) {
     if (means_gone(errno)) return {};
     return cannot_claim(
         file, "it was left behind, and cannot be taken away: " + std::generic_category().message(errno));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <new>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -119,6 +120,9 @@ class ExrWriter::Implementation {
     }
     try {
       write_or_throw(planes, rows);
+    } catch (const std::bad_alloc&) {
+      file_.abandon();
+      throw;
     } catch (const std::exception& exception) {
       error_ = file_.status().ok() ? "cannot write " + file_.path().string() + ": " + exception.what()
                                    : file_.status().error();
@@ -226,6 +230,8 @@ Result<ExrWriter> ExrWriter::open(const std::filesystem::path& path, const Image
   }
   try {
     return ExrWriter(std::make_unique<Implementation>(std::move(file).value(), layout, header, threads));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& exception) {
     const std::string why = exception.what();
     // The stream's own failures already name the file.

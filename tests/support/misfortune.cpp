@@ -83,6 +83,10 @@ bool disk_is_full() {
   return true;
 }
 
+bool is_new(const char* path) {
+  return syscall(SYS_faccessat, AT_FDCWD, path, F_OK) != 0;
+}
+
 template <class Function>
 Function next(Function /*itself*/, const char* name) {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
@@ -158,7 +162,7 @@ int __libc_start_main(Main main, int count, char** arguments, void (*init)(), vo
     va_start(list, flags);                                                     \
     const mode_t mode = va_arg(list, mode_t);                                  \
     va_end(list);                                                              \
-    if ((flags & O_CREAT) != 0 && disk_is_full()) return -1;                   \
+    if ((flags & O_CREAT) != 0 && is_new(path) && disk_is_full()) return -1;   \
     if (fails(k_open)) return -1;                                              \
     return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode)); \
   }
