@@ -15,7 +15,7 @@ if (($#)) && [[ $1 != -* ]]; then
   shift
 fi
 
-output=(-o "out/$(basename "$scene" .toml).exr")
+output=(-o out/)
 for option in "$@"; do
   case $option in -o | -o?* | --output | --output=*) output=() ;; esac
 done

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -71,6 +72,23 @@ CLI::Option* add_value(CLI::App& app, const char* names, const char* value, cons
 
 auto whole(std::int64_t least, std::int64_t most) {
   return [least, most](const std::string& text) { return parse_whole(text, least, most); };
+}
+
+// An existing folder may have any name.
+Result<OutputPattern> output_of(const std::string& text) {
+  std::error_code error;
+  return std::filesystem::is_directory(text, error) ? OutputPattern::literal(text)
+                                                    : OutputPattern::parse(text);
+}
+
+// Four times in this time a claim is renewed.
+Result<std::chrono::milliseconds> seconds_of_expiry(const std::string& text) {
+  const auto seconds = parse_number(text);
+  if (!seconds.ok()) return seconds.failure();
+  if (!(seconds.value() >= 0.1 && seconds.value() <= 86400.0)) {
+    return Failure{"expected a number of seconds from 0.1 to 86400"};
+  }
+  return std::chrono::milliseconds(std::llround(1000.0 * seconds.value()));
 }
 
 // Reads one of these words.
@@ -187,7 +205,7 @@ void add_output_flags(CLI::App& app, RenderOptions& options) {
             "file to write, or a folder for it; #### or %04d stands for the frame number (one # means four "
             "digits). "
             "Default: the scene's name with .exr in the current folder. Folders are made",
-            OutputPattern::parse, [&options](OutputPattern pattern) { options.output = std::move(pattern); })
+            output_of, [&options](OutputPattern pattern) { options.output = std::move(pattern); })
       ->group(group);
   CLI::Option* png = add_flag(app, "--png", options.png, "write a PNG to look at beside each EXR");
   png->group(group);
@@ -244,10 +262,10 @@ void add_again_flags(CLI::App& app, RenderOptions& options) {
       "at the end for the images of others")
       ->group(group);
   add_value(app, "--claim-expires", "SECONDS",
-            "take over a claim that its process has not renewed for so long; default 60. A process of this "
-            "machine that is gone is not waited for",
-            whole(1, 86400),
-            [&options](std::int64_t seconds) { options.claim_expiry = std::chrono::seconds(seconds); })
+            "take over a claim that this process has not seen renewed for so long; default 60. A process of "
+            "this machine that is gone is not waited for",
+            seconds_of_expiry,
+            [&options](std::chrono::milliseconds expiry) { options.claim_expiry = expiry; })
       ->group(group);
 }
 

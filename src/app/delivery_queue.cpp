@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <system_error>
 #include <utility>
 
 namespace backlight {
@@ -59,7 +58,7 @@ void DeliveryQueue::start_thread() {
   if (threads_.size() >= most_images) return;
   try {
     threads_.emplace_back([this] { work(); });
-  } catch (const std::system_error&) {
+  } catch (const std::exception&) {
     return;
   }
 }

@@ -1,4 +1,6 @@
 // backlight: the command line. Each command is a file of its own.
+#include <unistd.h>
+
 #include <exception>
 #include <iostream>
 #include <new>
@@ -9,6 +11,8 @@
 #include "commands.h"
 #include "exit_codes.h"
 #include "options.h"
+#include "signals.h"
+#include "standard_streams.h"
 
 namespace backlight {
 namespace {
@@ -18,16 +22,20 @@ int run(const Answer& answer) {
   return answer.usage_error ? exit_usage : exit_success;
 }
 
-// What went to stdout may still be in a buffer, and its file on a full disk.
+// What went to stdout may still be in a buffer, and its file on a full disk. Who reads only the begin of what
+// is printed (`| head`) knows that there is more.
 int flushed(int code) {
   std::cout.flush();
   if (std::cout.good()) return code;
+  if (has_no_reader(STDOUT_FILENO)) end_by_broken_pipe();
   std::cerr << "backlight: error: cannot write to standard output\n";
   return code == exit_success ? exit_file_trouble : code;
 }
 
 int run_program(const std::vector<std::string>& arguments) {
   const Command command = parse_command_line(arguments);
+  if (std::holds_alternative<RenderOptions>(command)) catch_stop_signals();
+  release_held_signals();
   return flushed(std::visit([](const auto& options) { return run(options); }, command));
 }
 
@@ -35,6 +43,8 @@ int run_program(const std::vector<std::string>& arguments) {
 }  // namespace backlight
 
 int main(int count, char** arguments) {
+  backlight::keep_standard_streams_apart();
+  backlight::make_signals_of_writing_errors();
   try {
     return backlight::run_program(std::vector<std::string>(arguments + 1, arguments + count));
   } catch (const std::bad_alloc&) {

@@ -46,7 +46,7 @@ struct RenderOptions {
   bool skip_existing = false;  ///< images whose file is complete and of the same identity; true with the next
   bool resume = false;         ///< go on with partial images
   bool claim = false;          ///< share the images with other processes through the folder
-  std::chrono::seconds claim_expiry{60};
+  std::chrono::milliseconds claim_expiry{60'000};
   std::vector<std::string> arguments;  ///< of the command line as given, for messages
 };
 

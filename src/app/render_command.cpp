@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -9,7 +10,6 @@
 #include "exit_codes.h"
 #include "messages.h"
 #include "render_run.h"
-#include "signals.h"
 
 namespace backlight {
 namespace {
@@ -20,6 +20,16 @@ Result<void> try_output(const std::filesystem::path& path) {
   if (!file.ok()) return file.failure();
   file.value().abandon();
   return {};
+}
+
+// Whether there is anything to write.
+bool all_are_complete(const std::vector<PlannedImage>& images, const RenderOptions& options,
+                      const ImageRecogniser& recogniser) {
+  std::error_code error;
+  return options.skip_existing && std::ranges::all_of(images, [&](const PlannedImage& image) {
+           return recogniser.is_complete(image) &&
+                  (image.png.empty() || std::filesystem::exists(image.png, error));
+         });
 }
 
 // What would be written goes to stdout, for scripts; what would be skipped or resumed is told on stderr.
@@ -56,7 +66,6 @@ int file_trouble(const std::string& message) {
 }  // namespace
 
 int run(const RenderOptions& options) {
-  catch_stop_signals();
   SceneSession session(options.scene);
   if (session.exit_code() != exit_success) return session.exit_code();
   const auto images = plan_images(options, session.frames());
@@ -77,10 +86,15 @@ int run(const RenderOptions& options) {
     print_files(images.value(), *first, options, recogniser.value());
     return exit_success;
   }
-  if (const auto tried = try_output(images.value().front().exr); !tried.ok())
+  // Where nothing is to be written, the folder may be one that cannot be written to.
+  const bool nothing_to_do = all_are_complete(images.value(), options, recogniser.value());
+  if (const auto tried = try_output(images.value().front().exr); !tried.ok() && !nothing_to_do)
     return file_trouble(tried.error());
   auto statistics = StatisticsFile::open(options.statistics, options.skip_existing);
-  if (!statistics.ok()) return file_trouble(statistics.error());
+  if (!statistics.ok()) {
+    if (!nothing_to_do) return file_trouble(statistics.error());
+    statistics = StatisticsFile();
+  }
   return RenderRun(options, session, recogniser.value(), images.value(), std::move(statistics).value())
       .run(std::move(*first));
 }

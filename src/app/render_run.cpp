@@ -1,6 +1,7 @@
 #include "render_run.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -27,9 +29,10 @@ int threads_for(const RenderOptions& options) {
   return options.threads > 0 ? options.threads : usable_threads();
 }
 
-RenderSettings settings_for(const RenderOptions& options, const Scene& scene, const Needs& needs) {
+RenderSettings settings_for(const RenderOptions& options, int threads, const Scene& scene,
+                            const Needs& needs) {
   RenderSettings settings;
-  settings.threads = threads_for(options);
+  settings.threads = threads;
   settings.crop = options.crop;
   settings.wavelengths = needs.wavelengths;
   settings.image_number = static_cast<std::int64_t>(std::floor(std::clamp(scene.frame, -1e15, 1e15)));
@@ -38,6 +41,11 @@ RenderSettings settings_for(const RenderOptions& options, const Scene& scene, co
 
 std::filesystem::path claim_path(const PlannedImage& image) {
   return image.exr.string() + ".claim";
+}
+
+std::string no_memory_for(const FilmSettings& film) {
+  return "not enough memory for an image of " + std::to_string(film.width) + "x" +
+         std::to_string(film.height) + " pixels; render it in parts with --crop";
 }
 
 PixelBox one_pixel(int x, int y) {
@@ -60,18 +68,39 @@ int RenderRun::run(Scene first) {
   first_ = std::move(first);
   std::vector<const PlannedImage*> all;
   for (const PlannedImage& image : images_) all.push_back(&image);
-  threads_.emplace(threads_for(options_), pause_requested());
-  serve_in_background();  // the storing threads too, which are begun from here
+  if (!begin_threads()) return exit_frame_failed;
   Outcome outcome = take_all(all);
   if (outcome == Outcome::made || outcome == Outcome::failed) {
     const Outcome others = wait_for_others();
     if (others != Outcome::made) outcome = others;
   }
   deliveries_.wait();
+  for (const std::filesystem::path& claim : left_) claimant_->clear(claim);
   tell_time();
   if (outcome == Outcome::stopped) return exit_stopped + stop_signal();
-  if (outcome == Outcome::file_trouble || deliveries_.has_failed()) return exit_file_trouble;
-  return outcome == Outcome::made ? exit_success : exit_frame_failed;
+  if (outcome == Outcome::file_trouble || deliveries_.has_failed() || lost_statistics_)
+    return exit_file_trouble;
+  return outcome == Outcome::made && !lacked_memory_ ? exit_success : exit_frame_failed;
+}
+
+// Images can be traced with fewer threads than were asked for, and with none but this one.
+bool RenderRun::begin_threads() {
+  const auto reason = [] { return std::generic_category().message(EAGAIN); };
+  try {
+    if (options_.claim) claimant_.emplace(options_.claim_expiry);
+  } catch (const std::system_error&) {
+    progress_.say("backlight: error: cannot begin the thread that renews claims: " + reason() +
+                  "; without --claim none is needed");
+    return false;
+  }
+  const int wanted = threads_for(options_);
+  threads_.emplace(wanted, pause_requested());
+  if (threads_->count() < wanted) {
+    progress_.say("backlight: warning: " + std::to_string(threads_->count()) + " of " +
+                  std::to_string(wanted) + " threads could be begun: " + reason());
+  }
+  serve_in_background();  // the storing threads too, which are begun from here
+  return true;
 }
 
 // Those that other processes work on go to waiting_. `failed`: not all of the others could be made.
@@ -142,8 +171,10 @@ RenderRun::Outcome RenderRun::wait_for_others() {
     const Outcome outcome = take_all(std::exchange(waiting_, {}));
     if (outcome == Outcome::stopped || outcome == Outcome::file_trouble) return outcome;
     if (outcome == Outcome::failed) all_made = false;
-    for (int i = 0; i < 10 && !waiting_.empty() && !stop_requested(); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (waiting_.empty()) break;
+    const auto end = std::chrono::steady_clock::now() + claimant_->pause();
+    while (std::chrono::steady_clock::now() < end && !stop_requested())
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return all_made ? Outcome::made : Outcome::failed;
 }
@@ -151,18 +182,21 @@ RenderRun::Outcome RenderRun::wait_for_others() {
 RenderRun::Outcome RenderRun::take(const PlannedImage& image) {
   if (options_.skip_existing && recogniser_.is_complete(image)) {
     std::error_code ignored;
-    // A process that was killed at the very end leaves a claim; to take it is to remove it.
+    // A process that was killed at the very end leaves a claim.
     if (options_.claim && std::filesystem::exists(claim_path(image), ignored)) {
-      if (const auto left = Claim::attempt(claim_path(image), options_.claim_expiry); !left.ok())
-        return trouble(left.error());
+      claimant_->clear(claim_path(image));
+      left_.push_back(claim_path(image));
     }
     return skip(image, "is complete");
   }
   if (!options_.claim) return begin(image, nullptr);
-  auto attempt = Claim::attempt(claim_path(image), options_.claim_expiry);
+  auto attempt = claimant_->attempt(claim_path(image));
   if (!attempt.ok()) return trouble(attempt.error());
   std::unique_ptr<Claim> claim = std::move(attempt.value().claim);
   if (!claim) return Outcome::claimed_by_another;
+  if (const std::string& from = attempt.value().taken_from;
+      !from.empty() && options_.verbosity != Verbosity::quiet)
+    progress_.say(image.exr.string() + "  taken over from " + from);
   // It may have been finished by another between the look at it and the claim.
   if (recogniser_.is_complete(image)) return skip(image, "is complete");
   return begin(image, std::move(claim));
@@ -207,8 +241,7 @@ RenderRun::Outcome RenderRun::explained(const PlannedImage& image, const FilmSet
   try {
     return step();
   } catch (const std::bad_alloc&) {
-    what = "not enough memory for an image of " + std::to_string(film.width) + "x" +
-           std::to_string(film.height) + " pixels; render it in parts with --crop";
+    what = no_memory_for(film);
   } catch (const PixelFailure& failure) {
     what = failure.what();
     crop = one_pixel(failure.x, failure.y);
@@ -233,7 +266,7 @@ RenderRun::Outcome RenderRun::begin(const PlannedImage& image, std::unique_ptr<C
 
 RenderRun::Outcome RenderRun::start(Work& work) {
   work.needs = needs_within_tolerance(work.scene);
-  work.settings = settings_for(options_, work.scene, work.needs);
+  work.settings = settings_for(options_, threads_->count(), work.scene, work.needs);
   const auto creation_time = source_date_epoch();
   if (!creation_time.ok()) return trouble(creation_time.error());
   work.header = image_header(work.scene, work.settings.wavelengths, recogniser_.origin(*work.image),
@@ -247,6 +280,10 @@ RenderRun::Outcome RenderRun::start(Work& work) {
   return Outcome::begun;
 }
 
+bool RenderRun::has_lost_claim(const Work& work) {
+  return work.claim != nullptr && work.claim->is_lost();
+}
+
 RenderRun::Outcome RenderRun::finish(const std::shared_ptr<Work>& work) {
   while (true) {
     work->statistics.seconds += threads_->finish();
@@ -255,7 +292,7 @@ RenderRun::Outcome RenderRun::finish(const std::shared_ptr<Work>& work) {
       if (in_hand_.size() == 1) take_snapshot_request();
       break;
     }
-    if (take_snapshot_request() && !stop_requested()) snapshot(*work);
+    if (take_snapshot_request() && !stop_requested() && !has_lost_claim(*work)) snapshot(*work);
     if (stop_requested()) return stop(*work);
     progress_.restart_images();
     threads_->go_on_with(*work->tracing);
@@ -264,7 +301,7 @@ RenderRun::Outcome RenderRun::finish(const std::shared_ptr<Work>& work) {
   work->statistics = work->tracing->statistics();
   work->statistics.seconds = seconds;
   work->tracing.reset();
-  if (work->claim != nullptr && !work->claim->is_held()) {
+  if (has_lost_claim(*work)) {
     progress_.say("backlight: warning: " + work->image->exr.string() +
                   ": another process took the claim over, which had expired; it will write the image");
     return Outcome::claimed_by_another;
@@ -297,6 +334,7 @@ void RenderRun::snapshot(const Work& work) {
 RenderRun::Outcome RenderRun::stop(const Work& work) {
   const bool behind_another = std::exchange(has_stopped_, true);
   if (behind_another && !work.partial.has_any()) return Outcome::stopped;
+  if (has_lost_claim(work)) return Outcome::stopped;  // what another has made by now stays alone
   const std::filesystem::path path = partial_path(work.image->exr);
   if (const auto written = write_partial(path, work.partial, work.header); !written.ok())
     return trouble(written.error());
@@ -310,8 +348,23 @@ RenderRun::Outcome RenderRun::deliver(const std::shared_ptr<Work>& work) {
   const Image& image = work->partial.image;
   const std::size_t bytes = image.channel_count() * image.plane(0).size_bytes();
   deliveries_.add(
-      bytes, [this, work] { return store(*work); },
-      [this, work](const Result<void>& stored) { return conclude(*work, stored); });
+      bytes,
+      [this, work]() -> Result<void> {
+        try {
+          return store(*work);
+        } catch (const std::bad_alloc&) {
+          work->lacks_memory = true;
+          return {};
+        }
+      },
+      [this, work](const Result<void>& stored) -> Result<void> {
+        try {
+          if (!work->lacks_memory) return conclude(*work, stored);
+        } catch (const std::bad_alloc&) {  // for what is told of it
+        }
+        tell_of_lack(*work);
+        return {};
+      });
   if (work->image == &images_.back()) deliveries_.wait();  // the end that progress tells is the end
   progress_.end_image();
   return deliveries_.has_failed() ? Outcome::file_trouble : Outcome::made;
@@ -329,17 +382,31 @@ Result<void> RenderRun::store(Work& work) const {
 }
 
 Result<void> RenderRun::conclude(Work& work, const Result<void>& stored) {
-  work.record =
-      statistics_json(work.scene, work.needs, work.settings, work.statistics, work.faults, work.image->exr);
-  const Result<void> done = stored.ok() ? statistics_.write(work.record) : stored;
-  if (done.ok()) {
+  if (stored.ok()) {
+    record(work);
     remove_superseded(*work.image);
     tell(work);
   } else {
-    trouble(done.error());
+    trouble(stored.error());
   }
   work.claim.reset();
-  return done;
+  return stored;
+}
+
+// The other images may have enough.
+void RenderRun::tell_of_lack(Work& work) {
+  lacked_memory_ = true;
+  work.claim.reset();
+  progress_.say("backlight: error: " + work.image->exr.string() + ": " + no_memory_for(work.scene.film));
+}
+
+// Images matter more than what is told of them: they are all made, and the exit status tells of the loss.
+void RenderRun::record(Work& work) {
+  work.record =
+      statistics_json(work.scene, work.needs, work.settings, work.statistics, work.faults, work.image->exr);
+  const auto written = statistics_.write(work.record);
+  if (!written.ok() && !std::exchange(lost_statistics_, true))
+    trouble(written.error() + "; the images are made all the same");
 }
 
 // The PNG is made from the file, so that it can be made later too, with the same bytes.

@@ -48,9 +48,11 @@ class RenderRun {
     std::unique_ptr<Claim> claim;  ///< null: without
     RenderStatistics statistics;
     ImageFaults faults;
-    std::string record;  ///< the object of --stats
+    bool lacks_memory = false;  ///< to be stored
+    std::string record;         ///< the object of --stats
   };
 
+  bool begin_threads();
   Outcome take_all(const std::vector<const PlannedImage*>& images);
   Outcome make_room();
   Outcome finish_first();
@@ -62,11 +64,14 @@ class RenderRun {
   Outcome begin(const PlannedImage& image, std::unique_ptr<Claim> claim);
   Outcome start(Work& work);
   Outcome finish(const std::shared_ptr<Work>& work);
+  static bool has_lost_claim(const Work& work);
   Outcome stop(const Work& work);
   /// Sends the image on its way; store() and conclude() follow on a thread of their own.
   Outcome deliver(const std::shared_ptr<Work>& work);
   [[nodiscard]] Result<void> store(Work& work) const;
   Result<void> conclude(Work& work, const Result<void>& stored);
+  void tell_of_lack(Work& work);
+  void record(Work& work);
   Outcome skip(const PlannedImage& image, const std::string& why);
   Outcome trouble(const std::string& what);
 
@@ -83,10 +88,14 @@ class RenderRun {
   const std::vector<PlannedImage>& images_;
   StatisticsFile statistics_;
   ProgressReporter progress_;
+  bool lost_statistics_ = false;
+  bool lacked_memory_ = false;  // for an image that was traced
   std::optional<Scene> first_;
   bool has_stopped_ = false;
   double last_seconds_ = 1.0;                  // that the image before took
+  std::optional<Claimant> claimant_;           // behind those who have claims
   std::vector<const PlannedImage*> waiting_;   // in the hands of other processes
+  std::vector<std::filesystem::path> left_;    // claims beside complete images
   std::deque<std::shared_ptr<Work>> in_hand_;  // being traced, or begun behind those
   std::optional<TracingThreads> threads_;      // behind what they trace
   DeliveryQueue deliveries_;                   // last: what is on its way uses the others

@@ -1,10 +1,15 @@
 #include "statistics.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
+#include "backlight/base/interrupted.h"
 #include "backlight/base/json_text.h"
 #include "strategy_words.h"
 
@@ -97,23 +102,42 @@ std::string time_words(const TracingTime& time) {
   return text;
 }
 
+// The standard output is written to as it is, and not opened anew under its name: it may be closed, or a file
+// to go on in.
 Result<StatisticsFile> StatisticsFile::open(const std::filesystem::path& path, bool append) {
   StatisticsFile statistics;
-  statistics.path_ = path;
   if (path.empty()) return statistics;
-  statistics.file_.rdbuf()->pubsetbuf(nullptr, 0);
   const bool to_output = path == "-";
-  if (to_output) statistics.path_ = "/dev/stdout";
-  statistics.file_.open(statistics.path_, append || to_output ? std::ios::app : std::ios::trunc);
-  if (!statistics.file_) return cannot_write(path);
+  statistics.path_ = to_output ? "standard output" : path;
+  const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (append ? O_APPEND : O_TRUNC);
+  statistics.descriptor_ = to_output ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+                                     : unless_interrupted([&] { return ::open(path.c_str(), flags, 0666); });
+  if (statistics.descriptor_ < 0) return cannot_write(statistics.path_);
   return statistics;
 }
 
+StatisticsFile::StatisticsFile(StatisticsFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+StatisticsFile& StatisticsFile::operator=(StatisticsFile&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+
+StatisticsFile::~StatisticsFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
 Result<void> StatisticsFile::write(const std::string& line) {
-  if (path_.empty()) return {};
+  if (descriptor_ < 0) return {};
   const std::string whole = line + '\n';
-  file_.write(whole.data(), static_cast<std::streamsize>(whole.size())).flush();
-  if (!file_) return cannot_write(path_);
+  for (std::string_view rest = whole; !rest.empty();) {
+    const ssize_t written =
+        unless_interrupted([&] { return ::write(descriptor_, rest.data(), rest.size()); });
+    if (written < 0) return cannot_write(path_);
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
   return {};
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "backlight/base/result.h"
@@ -33,11 +32,17 @@ class StatisticsFile {
   /// the standard output. Several processes may append to one file: each line is written at once.
   static Result<StatisticsFile> open(const std::filesystem::path& path, bool append);
 
+  /// Writes nothing, ever.
+  StatisticsFile() = default;
+  StatisticsFile(StatisticsFile&& other) noexcept;
+  StatisticsFile& operator=(StatisticsFile&& other) noexcept;
+  ~StatisticsFile();
+
   Result<void> write(const std::string& line);
 
  private:
   std::filesystem::path path_;
-  std::ofstream file_;  // unbuffered
+  int descriptor_ = -1;
 };
 
 }  // namespace backlight

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "backlight/base/interrupted.h"
+
 namespace backlight {
 namespace {
 
@@ -35,16 +37,18 @@ fs::path temporary_name(const fs::path& folder) {
 /// A file without a name in `folder`, or -1: it vanishes with the process. It is given a name through /proc.
 int open_nameless(const fs::path& folder) {
   static const bool can_be_named = ::access("/proc/self/fd", X_OK) == 0;
-  return can_be_named ? ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
+  if (!can_be_named) return -1;
+  return unless_interrupted([&] { return ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666); });
 }
 
 /// Flushes a folder's entries. File systems without such a flush (EINVAL) need none.
 int flush_folder(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int descriptor =
+      unless_interrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
   if (descriptor < 0) {
     return errno == EACCES ? 0 : errno;  // a folder may be written to without being readable
   }
-  const int error_number = ::fsync(descriptor) == 0 ? 0 : errno;
+  const int error_number = unless_interrupted([&] { return ::fsync(descriptor); }) == 0 ? 0 : errno;
   ::close(descriptor);
   return error_number == EINVAL ? 0 : error_number;
 }
@@ -138,10 +142,8 @@ Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
     return so_far;
   }
   while (!bytes.empty()) {
-    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(position_));
-    if (written < 0 && errno == EINTR) {
-      continue;
-    }
+    const ssize_t written = unless_interrupted(
+        [&] { return ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(position_)); });
     if (written <= 0) {
       return fail(written < 0 ? errno : ENOSPC);
     }
@@ -181,10 +183,8 @@ Result<void> AtomicFile::commit() {
   if (Result<void> so_far = status(); !so_far.ok()) {
     return so_far;
   }
-  while (::fsync(descriptor_) != 0) {
-    if (errno != EINTR) {
-      return fail(errno);
-    }
+  if (unless_interrupted([&] { return ::fsync(descriptor_); }) != 0) {
+    return fail(errno);
   }
   if (temporary_.empty()) {
     if (const int error_number = give_name(); error_number != 0) {
@@ -221,7 +221,7 @@ Result<std::string> read_file(const fs::path& path) {
   const auto cannot_read = [&](int error_number) {
     return Failure{"cannot read " + path.string() + ": " + reason(error_number)};
   };
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = unless_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); });
   if (descriptor < 0) {
     return cannot_read(errno);
   }

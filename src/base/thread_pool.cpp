@@ -9,6 +9,7 @@
 #include <cstring>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -57,8 +58,11 @@ bool run_on_threads(std::size_t count, int threads, const std::atomic<bool>& sto
   {
     const auto helpers = static_cast<std::size_t>(std::max(threads, 1)) - 1;
     std::vector<std::jthread> pool;
-    for (std::size_t i = 0; i < helpers && i + 1 < count; ++i)
-      pool.emplace_back(work, static_cast<int>(i) + 1);
+    try {
+      for (std::size_t i = 0; i < helpers && i + 1 < count; ++i)
+        pool.emplace_back(work, static_cast<int>(i) + 1);
+    } catch (const std::system_error&) {  // those there are do it all
+    }
     work(0);
   }
   if (failure) std::rethrow_exception(failure);

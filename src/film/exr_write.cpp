@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <mutex>
+#include <new>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -90,12 +90,19 @@ bool is_large(const Image& image) {
 }
 
 // How many threads of OpenEXR's own, which all files of the process share, help with a file. They are started
-// by the first file that asks for any.
+// by the first file that asks for any; where they cannot be, each file is compressed by the thread that
+// writes it.
 int helpers_of(int threads) {
   if (threads <= 1) return 0;
-  static std::once_flag once;
-  std::call_once(once, [&] { Imf::setGlobalThreadCount(threads); });
-  return threads;
+  static const bool are_there = [&] {
+    try {
+      Imf::setGlobalThreadCount(threads);
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }();
+  return are_there ? threads : 0;
 }
 
 }  // namespace
@@ -116,6 +123,9 @@ class ExrWriter::Implementation {
     }
     try {
       write_or_throw(planes, rows);
+    } catch (const std::bad_alloc&) {
+      file_.abandon();
+      throw;
     } catch (const std::exception& exception) {
       error_ = file_.status().ok() ? "cannot write " + file_.path().string() + ": " + exception.what()
                                    : file_.status().error();
@@ -223,6 +233,8 @@ Result<ExrWriter> ExrWriter::open(const std::filesystem::path& path, const Image
   }
   try {
     return ExrWriter(std::make_unique<Implementation>(std::move(file).value(), layout, header, threads));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& exception) {
     const std::string why = exception.what();
     // The stream's own failures already name the file.

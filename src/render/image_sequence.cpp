@@ -93,13 +93,15 @@ Result<std::vector<int>> parse_frames(std::string_view text) {
 Result<OutputPattern> OutputPattern::parse(std::string_view text) {
   if (text.empty()) return Failure{"the name of the output file is empty"};
   OutputPattern pattern;
-  std::string literal;
+  const std::string whole(text);
+  const std::size_t name = text.rfind('/') + 1;  // 0 where there is no slash
+  std::string literal = whole.substr(0, name);
+  text.remove_prefix(name);
   const auto add_number = [&](int width) {
     if (!literal.empty()) pattern.pieces_.push_back({std::exchange(literal, {}), -1});
     pattern.pieces_.push_back({{}, width});
     pattern.has_number_ = true;
   };
-  const std::string whole(text);
   while (!text.empty()) {
     if (text.front() == '#') {
       const std::size_t hashes = std::min(text.find_first_not_of('#'), text.size());

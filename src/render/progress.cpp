@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ostream>
+#include <system_error>
 #include <utility>
 
 #include "backlight/base/json_text.h"
@@ -123,7 +124,10 @@ ProgressReporter::ProgressReporter(std::ostream& out, Settings settings)
       start_(std::chrono::steady_clock::now()),
       images_(settings.images) {
   if (style_ == ProgressStyle::none) return;
-  thread_ = std::jthread([this](std::stop_token stop) { report_until_stopped(std::move(stop)); });
+  try {
+    thread_ = std::jthread([this](std::stop_token stop) { report_until_stopped(std::move(stop)); });
+  } catch (const std::system_error&) {  // what is said is said all the same
+  }
 }
 
 ProgressReporter::~ProgressReporter() {

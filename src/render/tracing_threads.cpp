@@ -48,7 +48,6 @@ TracingThreads::TracingThreads(int threads, const std::atomic<bool>& stop)
     try {
       threads_.emplace_back([this, i] { work(i); });
     } catch (const std::system_error&) {
-      if (threads_.empty()) throw;
       break;
     }
   }
@@ -58,6 +57,10 @@ TracingThreads::~TracingThreads() {
   const std::lock_guard lock(guard_);
   closing_ = true;
   has_work_.notify_all();
+}
+
+int TracingThreads::count() const {
+  return std::max(1, static_cast<int>(threads_.size()));
 }
 
 void TracingThreads::begin(ImageTracing& image) {
@@ -82,6 +85,7 @@ void TracingThreads::append(std::unique_ptr<Job> job, bool first) {
 }
 
 void TracingThreads::wait_for_tail() {
+  if (threads_.empty()) return;
   std::unique_lock lock(guard_);
   const auto is_time = [this] {
     return jobs_.empty() || jobs_.front()->is_in_tail || jobs_.front()->is_finished() || stop_.load();
@@ -96,6 +100,7 @@ bool TracingThreads::first_is_done() const {
 
 double TracingThreads::finish() {
   std::unique_lock lock(guard_);
+  if (threads_.empty()) work_on(*jobs_.front(), 0, lock);
   has_news_.wait(lock, [this] { return jobs_.front()->is_finished(); });
   const std::unique_ptr<Job> job = std::move(jobs_.front());
   jobs_.pop_front();
@@ -111,7 +116,7 @@ double TracingThreads::finish() {
 TracingTime TracingThreads::time() const {
   const std::lock_guard lock(guard_);
   const double seconds = first_begin_ < last_end_ ? Seconds(last_end_ - first_begin_).count() : 0.0;
-  return {seconds, traced_, static_cast<int>(threads_.size())};
+  return {seconds, traced_, count()};
 }
 
 // With the lock.
@@ -131,17 +136,22 @@ void TracingThreads::work(int thread) {
     // If it is refused, the thread goes on working where it is.
     if (state == State::is_placed) static_cast<void>(spread_.release());
     state = State::works;
-    ++job->threads_in_it;
-    job->begin = std::min(job->begin, Clock::now());
-    lock.unlock();
-    const double traced = take_tiles(*job, thread);
-    lock.lock();
-    job->traced += traced;
-    --job->threads_in_it;
-    job->all_taken = true;
-    job->end = std::max(job->end, Clock::now());
-    if (job->is_finished()) has_news_.notify_one();
+    work_on(*job, thread, lock);
   }
+}
+
+// With the lock, which it gives up while it traces.
+void TracingThreads::work_on(Job& job, int thread, std::unique_lock<std::mutex>& lock) {
+  ++job.threads_in_it;
+  job.begin = std::min(job.begin, Clock::now());
+  lock.unlock();
+  const double traced = take_tiles(job, thread);
+  lock.lock();
+  job.traced += traced;
+  --job.threads_in_it;
+  job.all_taken = true;
+  job.end = std::max(job.end, Clock::now());
+  if (job.is_finished()) has_news_.notify_one();
 }
 
 // Until none is left to begin. Returns the seconds spent in tiles.

@@ -125,6 +125,52 @@ TEST_F(FailureTest, UnwritableFolderIsFoundBeforeRendering) {
   EXPECT_EQ(files(), Files{"slow.toml"});
 }
 
+// Where nothing is to be done, nothing needs to be written.
+TEST_F(FailureTest, AReadOnlyFolderOfCompleteImagesIsNoTrouble) {
+  write_scene("scene.toml", "[animation]\nframes = [1, 3]\n");
+  const std::vector<std::string> job{"scene.toml", "-o", "out/a.exr", "--png", "--stats", "out/s.json"};
+  ASSERT_EQ(run(job).code, 0);
+  write("out/a.0002.exr.claim", "left behind");
+  const Files before = files();
+  std::filesystem::permissions(folder / "work" / "out", std::filesystem::perms(0555));
+  as_ordinary_user();
+  for (const char* option : {"--skip-existing", "--resume", "--claim"}) {
+    for (const char* statistics : {"out/s.json", "out/new.json", "-"}) {
+      std::vector<std::string> again = job;
+      again.insert(again.end(), {option, "--stats", statistics});
+      const Outcome outcome = run(again);
+      EXPECT_EQ(outcome.code, 0) << option << ": " << outcome.err;
+      EXPECT_EQ(outcome.err.find("error"), std::string::npos) << outcome.err;
+    }
+    // Another image than that which is there.
+    EXPECT_EQ(run({"scene.toml", "-o", "out/a.exr", "-s", "9", option}).code, 4);
+  }
+  EXPECT_EQ(files(), before);
+  std::filesystem::permissions(folder / "work" / "out", std::filesystem::perms(0755));
+}
+
+TEST_F(FailureTest, WhatCanBeNoClaimIsFileTroubleAndIsNotWaitedFor) {
+  write_scene();
+  const std::vector<std::string> job{"scene.toml", "-o", "a.exr", "--claim"};
+  std::filesystem::create_directory(folder / "work" / "a.exr.claim");
+  EXPECT_EQ(run(job).code, 4);
+  std::filesystem::remove(folder / "work" / "a.exr.claim");
+  std::filesystem::create_symlink("nowhere", folder / "work" / "a.exr.claim");
+  const Outcome link = run(job);
+  EXPECT_EQ(link.code, 4);
+  EXPECT_NE(link.err.find("cannot claim a.exr.claim: a symbolic link has that name"), std::string::npos)
+      << link.err;
+  std::filesystem::remove(folder / "work" / "a.exr.claim");
+  write("a.exr.claim", "");
+  std::filesystem::permissions(folder / "work" / "a.exr.claim", std::filesystem::perms(0));
+  as_ordinary_user();
+  const Outcome unreadable = run(job);
+  EXPECT_EQ(unreadable.code, 4);
+  EXPECT_NE(unreadable.err.find("it is there and cannot be read: Permission denied"), std::string::npos)
+      << unreadable.err;
+  EXPECT_FALSE(exists("a.exr"));
+}
+
 TEST_F(FailureTest, FileInTheWayOfAFolderIsFileTrouble) {
   write_scene();
   write("out", "a file");

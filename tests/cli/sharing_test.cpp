@@ -86,10 +86,37 @@ TEST_F(Sharing, AClaimOfAnotherMachineHoldsUntilItExpires) {
   EXPECT_EQ(stopped.code, 128 + SIGTERM) << stopped.err;
   EXPECT_EQ(read("a.0003.exr.claim"), theirs);
 
-  std::this_thread::sleep_for(2100ms);
   expect_success(claim + Arguments{"--claim-expires", "1"});
   for (const auto& [file, count] : made("s.json")) EXPECT_EQ(count, 1) << file;
   expect_all_right();
+}
+
+// What a power cut, a clock that is an hour ahead, and a machine that is gone leave behind.
+TEST_F(Sharing, ClaimsThatNobodyRenewsAreTakenOver) {
+  write("a.0003.exr.claim", "");
+  write("a.0004.exr.claim", "backlight claim\nhost far\nprocess 1\nsince x\nspace y\nstart 5\nnumber 0\n");
+  std::filesystem::last_write_time(folder / "work" / "a.0004.exr.claim",
+                                   std::filesystem::file_time_type::clock::now() + 1h);
+  expect_success(claim + Arguments{"--claim-expires", "0.4"});
+  for (const auto& [file, count] : made("s.json")) EXPECT_EQ(count, 1) << file;
+  expect_all_right();
+}
+
+// It is stopped with a claim, another takes the image over, and it comes back: the image is made once.
+TEST_F(Sharing, AProcessThatComesBackFindsItsClaimGone) {
+  const Arguments brief = claim + Arguments{"--claim-expires", "0.4"};
+  const int sleeper = start(brief + Arguments{"-s", "20000"}, "sleeper");
+  wait_for("a.0001.exr.claim");
+  kill(sleeper, SIGSTOP);
+  expect_success(brief);
+  expect_all_right();
+  kill(sleeper, SIGCONT);
+  std::this_thread::sleep_for(50ms);
+  kill(sleeper, SIGTERM);
+  EXPECT_EQ(finish(sleeper, "sleeper").code, 128 + SIGTERM);
+  // Not even a partial image, which nobody would finish.
+  expect_all_right();
+  for (const auto& [file, count] : made("s.json")) EXPECT_EQ(count, 1) << file;
 }
 
 TEST_F(Sharing, WithoutClaimsEveryImageIsWholeAllTheSame) {

@@ -7,9 +7,10 @@
 
 namespace backlight {
 
-/// Calls task(i, thread) once for each i of 0 ... count - 1, on up to `threads` threads, of which the caller
-/// is one; `thread` (0 ... threads - 1) tells which, for scratch memory. The pieces are taken in order of i,
-/// but which thread takes which is left to chance: results must not depend on it.
+/// Calls task(i, thread) once for each i of 0 ... count - 1, on up to `threads` threads (fewer where no more
+/// can be begun), of which the caller is one; `thread` (0 ... threads - 1) tells which, for scratch memory.
+/// The pieces are taken in order of i, but which thread takes which is left to chance: results must not
+/// depend on it.
 ///
 /// When `stop` turns true no further piece is begun; those in hand are finished, or may look at `stop`
 /// themselves and return early. When a piece throws, the others in hand are finished and the first exception

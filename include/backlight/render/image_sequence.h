@@ -15,8 +15,9 @@ namespace backlight {
 /// backwards, and on more than a million frames.
 Result<std::vector<int>> parse_frames(std::string_view text);
 
-/// A file name with a place for the frame number: "%04d" (printf's, with any width) or hashes, one of which
-/// means four digits and n of which mean n. "%%" is a percent sign. A larger number takes more digits.
+/// A path with a place for the frame number in the file's name: "%04d" (printf's, with any width) or hashes,
+/// one of which means four digits and n of which mean n. "%%" is a percent sign there. A larger number takes
+/// more digits. The folder, all that is before the last slash, is taken as it is.
 class OutputPattern {
  public:
   /// Fails on an empty name, and on a percent sign that is not followed as above.

@@ -28,17 +28,21 @@ struct TracingTime {
 
 /// The threads take the tiles of the images in the order in which these are begun. A thread that finds no
 /// tile left in an image goes on with the next, while others finish theirs: so images must be begun before
-/// those in hand are done. For use by one thread, which traces nothing itself.
+/// those in hand are done. For use by one thread.
 class TracingThreads {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Where there are fewer threads to be had, those trace; std::system_error if there are none.
+  /// Where there are fewer threads to be had, those trace; where there are none, the caller's does in
+  /// finish().
   TracingThreads(int threads, const std::atomic<bool>& stop);
   /// Nothing may be in hand.
   ~TracingThreads();
   TracingThreads(const TracingThreads&) = delete;
   TracingThreads& operator=(const TracingThreads&) = delete;
+
+  /// How many threads trace, at least 1.
+  [[nodiscard]] int count() const;
 
   /// Appends an image to those in hand. It must stay until finish() has returned for it.
   void begin(ImageTracing& image);
@@ -66,6 +70,7 @@ class TracingThreads {
   void append(std::unique_ptr<Job> job, bool first);
   void work(int thread);
   Job* next_job();
+  void work_on(Job& job, int thread, std::unique_lock<std::mutex>& lock);
   double take_tiles(Job& job, int thread);
   void look_at_tail(Job& job, Clock::time_point now);
 

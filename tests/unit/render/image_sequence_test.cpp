@@ -55,7 +55,7 @@ TEST(OutputPattern, PutsInTheNumber) {
   EXPECT_EQ(name("a.#.exr", 7), "a.0007.exr");
   EXPECT_EQ(name("a.##.exr", 7), "a.07.exr");
   EXPECT_EQ(name("a.######.exr", 7), "a.000007.exr");
-  EXPECT_EQ(name("shot##/a.%03d.exr", 5), "shot05/a.005.exr");
+  EXPECT_EQ(name("shot##/a.%03d.exr", 5), "shot##/a.005.exr");
   EXPECT_EQ(name("a.%04d.exr", -7), "a.-007.exr");
   EXPECT_EQ(name("100%%.exr", 7), "100%.exr");
 }
@@ -83,9 +83,24 @@ TEST(OutputPattern, TakesLiteralNames) {
   };
   EXPECT_EQ(in("shots"), "shots/a#.exr");
   EXPECT_EQ(in("shots/"), "shots/a#.exr");
-  EXPECT_EQ(in("shot%02d"), "shot03/a#.exr");
+  EXPECT_EQ(in("shot%02d/"), "shot%02d/a#.exr");
   EXPECT_EQ(OutputPattern::parse("out").value().with_file("a.exr").numbered().path(3).string(),
             "out/a.0003.exr");
+}
+
+// Hashes and percent signs are numbers in the file's name only.
+TEST(OutputPattern, TakesFoldersAsTheyAre) {
+  const auto path = [](const std::string& text) {
+    return OutputPattern::parse(text).value().path(12).string();
+  };
+  EXPECT_EQ(path("take#2/"), "take#2/");
+  EXPECT_EQ(path("take#2/a.##.exr"), "take#2/a.12.exr");
+  EXPECT_EQ(path("50%/%%/%d/#/a%03d.exr"), "50%/%%/%d/#/a012.exr");
+  EXPECT_EQ(path("/%s/{}/a.exr"), "/%s/{}/a.exr");
+  EXPECT_FALSE(OutputPattern::parse("shot.####/a.exr").value().has_number());
+  EXPECT_EQ(OutputPattern::parse("shot.####/a.exr").value().numbered().path(12).string(),
+            "shot.####/a.0012.exr");
+  EXPECT_FALSE(OutputPattern::parse("50%/a%s.exr").ok());
 }
 
 TEST(OutputPattern, RefusesOtherConversions) {
