@@ -73,6 +73,11 @@ inline Bounds nowhere() {
 inline Bounds everything(Continuity continuity) {
   return {infinity, infinity, continuity};
 }
+/// Ends that were found apart from each other, as by lanes, which do not say where nothing is defined: no
+/// interval if they are the wrong way round, or not numbers.
+inline Bounds checked(double minus_lower, double upper, Continuity continuity) {
+  return -minus_lower <= upper ? Bounds(minus_lower, upper, continuity) : nowhere();
+}
 inline Continuity worse(const Bounds& a, const Bounds& b) {
   return std::max(a.continuity, b.continuity);
 }
