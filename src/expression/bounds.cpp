@@ -30,8 +30,13 @@ double minus_power_down(double magnitude, unsigned n) {
 }  // namespace
 
 Bounds operator/(const Bounds& a, const Bounds& b) {
-  const Continuity continuity = worse(a, b);
-  if (continuity == Continuity::undefined || (b.minus_lower == 0.0 && b.upper == 0.0)) return nowhere();
+  Continuity continuity = worse(a, b);
+  if (continuity == Continuity::undefined || is_zero(b)) return nowhere();
+  if (may_overflow(a) && may_overflow(b)) {
+    // As with a difference of infinities.
+    if (overflows(a) && overflows(b)) return nowhere();
+    continuity = std::max(continuity, Continuity::partial);
+  }
   if (b.minus_lower > 0.0 && b.upper > 0.0) return everything(Continuity::partial);
   const bool negative = b.upper <= 0.0;
   const Bounds above = negative ? -a : a;
