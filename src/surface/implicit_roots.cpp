@@ -122,9 +122,10 @@ void RootWalk::advance(double to, const PointValue& there) {
 /// Closes the stretch that could not be divided further. True: there is a root on it, reported as `root`.
 bool RootWalk::end_zone(Root& root) {
   in_zone_ = false;
-  const bool changes = sign_before_zone_ * sign_after_zone_ < 0;
-  if (!changes && !zone_has_root_ && !RootEvidence(f_, line_).comes_to_zero(zone_start_, zone_end_))
-    return false;
+  const RootEvidence evidence(f_, line_);
+  const bool changes = sign_before_zone_ * sign_after_zone_ < 0 || zone_has_root_;
+  if (evidence.vanishes(zone_start_, zone_end_)) return false;
+  if (!changes && !evidence.comes_to_zero(zone_start_, zone_end_)) return false;
   return report_zone(root);
 }
 
@@ -255,7 +256,7 @@ RootWalk::Verdict RootWalk::try_cell(double to, Root& root) {
 /// these four do not.
 bool RootWalk::everywhere(double to, bool PointValue::*what) {
   const double length = to - a_;
-  return at(to).*what && at(a_ + 0.5 * length).*what && at(a_ + uneven * length).*what &&
+  return at_a_.*what && at(to).*what && at(a_ + 0.5 * length).*what && at(a_ + uneven * length).*what &&
          at(a_ + 0.8090169943749475 * length).*what;
 }
 

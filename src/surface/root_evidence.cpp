@@ -21,7 +21,7 @@ constexpr double next = 16.0;
 /// Below this the numbers of a formula have run out of the range of doubles.
 constexpr double vanishing = 0x1p-1000;
 /// A stretch longer than this part of its coordinates, over which f vanishes so, says nothing of f.
-constexpr double long_stretch = 0x1p-20;
+constexpr double long_stretch = 0x1p-10;
 
 double most(const Interval& i) {
   return std::max(std::abs(i.lower), std::abs(i.upper));
@@ -83,18 +83,25 @@ RootEvidence::Side RootEvidence::beside(double end, int side, double length, dou
   return Side::level;
 }
 
+bool RootEvidence::vanishes(double from, double to) const {
+  if (!(to - from > long_stretch / (next * epsilon) * resolution(from))) return false;
+  for (const double part : {0.25, 0.5, 0.75}) {
+    const Interval value = at_double(from + part * (to - from));
+    if (!(most(value) > 0.0 && most(value) < vanishing)) return false;
+  }
+  return true;
+}
+
 bool RootEvidence::comes_to_zero(double from, double to) const {
   double least_found = infinity;
   bool hidden = false;
-  bool vanished = to - from > long_stretch / (next * epsilon) * resolution(from);
   for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     const Interval value = at_double(from + part * (to - from));
     if (!is_continuous(value)) continue;
     least_found = std::min(least_found, most(value));
-    vanished = vanished && most(value) > 0.0 && most(value) < vanishing;
     hidden = hidden || least(value) <= hiding * (value.upper - value.lower);
   }
-  if (!(least_found < infinity) || vanished) return false;
+  if (!(least_found < infinity)) return false;
   const Side before = beside(from, -1, to - from, least_found);
   const Side behind = beside(to, 1, to - from, least_found);
   if (before == Side::broken || behind == Side::broken) return false;

@@ -18,6 +18,9 @@ class RootEvidence {
   /// is long.
   [[nodiscard]] double resolution_of_jumps() const;
 
+  /// Whether f is too small for doubles all over a long stretch: what it is there is not known.
+  [[nodiscard]] bool vanishes(double from, double to) const;
+
   /// Whether f is 0 on [from, to], or nearly so: it comes down to its own rounding there, continuously. At an
   /// edge of its domain, a pole or a jump it does not, however wide its bounds beside that are.
   [[nodiscard]] bool comes_to_zero(double from, double to) const;
