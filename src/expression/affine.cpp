@@ -38,7 +38,7 @@ struct AffineNumber {
     if (continuity == Continuity::undefined) return nowhere();
     if (std::isinf(error())) return everything(continuity);
     const double reach = radius(form).number();
-    return {reach - centre(), reach + centre(), continuity};
+    return checked(reach - centre(), reach + centre(), continuity);
   }
 };
 

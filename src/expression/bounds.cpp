@@ -30,18 +30,24 @@ double minus_power_down(double magnitude, unsigned n) {
 }  // namespace
 
 Bounds operator/(const Bounds& a, const Bounds& b) {
-  const Continuity continuity = worse(a, b);
-  if (continuity == Continuity::undefined || (b.minus_lower == 0.0 && b.upper == 0.0)) return nowhere();
-  if (b.minus_lower > 0.0 && b.upper > 0.0) return everything(Continuity::partial);
-  if (b.upper <= 0.0) return -a / -b;
-  // 0 <= b
-  const double nearest = -b.minus_lower;
-  if (nearest == 0.0) {
-    const Bounds inverse{-1.0 / b.upper, infinity, Continuity::partial};
-    return product(a, inverse, Continuity::partial);
+  Continuity continuity = worse(a, b);
+  if (continuity == Continuity::undefined || is_zero(b)) return nowhere();
+  if (may_overflow(a) && may_overflow(b)) {
+    // As with a difference of infinities.
+    if (overflows(a) && overflows(b)) return nowhere();
+    continuity = std::max(continuity, Continuity::partial);
   }
-  const double upper = a.upper / (a.upper >= 0.0 ? nearest : b.upper);
-  const double minus_lower = a.minus_lower / (a.minus_lower >= 0.0 ? nearest : b.upper);
+  if (b.minus_lower > 0.0 && b.upper > 0.0) return everything(Continuity::partial);
+  const bool negative = b.upper <= 0.0;
+  const Bounds above = negative ? -a : a;
+  const double nearest = negative ? -b.upper : -b.minus_lower;  // of |b|
+  const double farthest = negative ? b.minus_lower : b.upper;
+  if (nearest == 0.0) {
+    const Bounds inverse{-1.0 / farthest, infinity, Continuity::partial};
+    return product(above, inverse, Continuity::partial);
+  }
+  const double upper = above.upper / (above.upper >= 0.0 ? nearest : farthest);
+  const double minus_lower = above.minus_lower / (above.minus_lower >= 0.0 ? nearest : farthest);
   return {minus_lower, upper, continuity};
 }
 
@@ -102,8 +108,8 @@ Bounds modulo(const Bounds& a, const Bounds& b) {
   const double slack = 4e-16 * std::max(a.minus_lower, a.upper);
   const Bounds remainder{std::max(b.minus_lower, 0.0) + slack, std::max(b.upper, 0.0) + slack,
                          whole.continuity};
-  return {std::min(difference.minus_lower, remainder.minus_lower),
-          std::min(difference.upper, remainder.upper), whole.continuity};
+  return checked(std::min(difference.minus_lower, remainder.minus_lower),
+                 std::min(difference.upper, remainder.upper), whole.continuity);
 }
 
 Bounds sign(const Bounds& a) {

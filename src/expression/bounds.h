@@ -73,6 +73,11 @@ inline Bounds nowhere() {
 inline Bounds everything(Continuity continuity) {
   return {infinity, infinity, continuity};
 }
+/// Ends that were found apart from each other, as by lanes, which do not say where nothing is defined: no
+/// interval if they are the wrong way round, or not numbers.
+inline Bounds checked(double minus_lower, double upper, Continuity continuity) {
+  return -minus_lower <= upper ? Bounds(minus_lower, upper, continuity) : nowhere();
+}
 inline Continuity worse(const Bounds& a, const Bounds& b) {
   return std::max(a.continuity, b.continuity);
 }
@@ -94,6 +99,17 @@ inline double extended_product(double x, double y) {
   return x == 0.0 || y == 0.0 ? 0.0 : x * y;
 }
 
+/// The double of a number that is certainly beyond all doubles: an infinity.
+inline bool overflows(const Bounds& a) {
+  return a.minus_lower <= -largest || a.upper <= -largest;
+}
+inline bool may_overflow(const Bounds& a) {
+  return a.minus_lower == infinity || a.upper == infinity;
+}
+inline bool is_zero(const Bounds& a) {
+  return a.minus_lower == 0.0 && a.upper == 0.0;
+}
+
 inline Bounds product(const Bounds& a, const Bounds& b, Continuity continuity) {
   // Ends that are not -infinity add up to infinity when one of them is: else there is no 0 times infinity.
   if ((a.minus_lower + a.upper) + (b.minus_lower + b.upper) < infinity) {
@@ -112,10 +128,23 @@ inline Bounds product(const Bounds& a, const Bounds& b, Continuity continuity) {
   return {minus_lower, upper, continuity};
 }
 
+/// The law is what doubles say: where both terms are beyond them, and of different signs, there is no value.
+[[gnu::noinline]] inline Bounds difference_of_infinities(const Bounds& a, const Bounds& b) {
+  if (overflows(a) && overflows(b)) return nowhere();
+  return everything(may_overflow(a) && may_overflow(b) ? std::max(worse(a, b), Continuity::partial)
+                                                       : worse(a, b));
+}
+
+/// 0 times what is certainly beyond all doubles: in doubles that is no number.
+inline bool nothing_of_infinity(const Bounds& a, const Bounds& b) {
+  return (is_zero(a) && overflows(b)) || (is_zero(b) && overflows(a));
+}
+
 inline Bounds operator+(const Bounds& a, const Bounds& b) {
   const Continuity continuity = worse(a, b);
   if (continuity == Continuity::undefined) return nowhere();
-  return {a.minus_lower + b.minus_lower, a.upper + b.upper, continuity};
+  const Bounds sum{a.minus_lower + b.minus_lower, a.upper + b.upper, continuity};
+  return sum.minus_lower == infinity && sum.upper == infinity ? difference_of_infinities(a, b) : sum;
 }
 
 inline Bounds operator-(const Bounds& a) {
@@ -128,7 +157,8 @@ inline Bounds operator-(const Bounds& a, const Bounds& b) {
 
 inline Bounds operator*(const Bounds& a, const Bounds& b) {
   const Continuity continuity = worse(a, b);
-  return continuity == Continuity::undefined ? nowhere() : product(a, b, continuity);
+  if (continuity == Continuity::undefined || nothing_of_infinity(a, b)) return nowhere();
+  return product(a, b, continuity);
 }
 
 inline Bounds square(const Bounds& a) {

@@ -55,7 +55,7 @@ bool may_hold_phase(const Bounds& a, double phase, double period) {
 
 /// sin or cos, whose maxima lie at `crest` + 2πk.
 Bounds wave(Function f, const Bounds& a, double crest) {
-  if (a.is_undefined()) return a;
+  if (a.is_undefined() || overflows(a)) return nowhere();
   if (!(a.upper + a.minus_lower < 2.0 * pi)) return {1.0, 1.0, a.continuity};
   const double low = -a.minus_lower;
   double upper = std::max(above(f, low), above(f, a.upper));
@@ -89,6 +89,15 @@ Bounds whole_power(const Bounds& a, double n) {
   return {widened(-library_pow(-a.minus_lower, n)), widened(library_pow(a.upper, n)), a.continuity};
 }
 
+/// aᵇ where a may be negative, which has powers for whole exponents only: as large as those of |a|.
+Bounds power_of_any_sign(const Bounds& a, const Bounds& b) {
+  double most = 0.0;
+  for (const double x : {least_magnitude(a), std::max(a.minus_lower, a.upper)}) {
+    for (const double y : {-b.minus_lower, b.upper}) most = std::max(most, widened(library_pow(x, y)));
+  }
+  return {most, most, Continuity::partial};
+}
+
 /// Continuous, but perhaps not where a base of zero makes it so.
 Continuity continuity_of_power(const Bounds& base, const Bounds& exponent) {
   const bool at_zero = -base.minus_lower <= 0.0 && -exponent.minus_lower <= 0.0;
@@ -106,7 +115,7 @@ Bounds cos(const Bounds& a) {
 }
 
 Bounds tan(const Bounds& a) {
-  if (a.is_undefined()) return a;
+  if (a.is_undefined() || overflows(a)) return nowhere();
   if (!(a.upper + a.minus_lower < pi) || may_hold_phase(a, 0.5 * pi, pi)) {
     return everything(Continuity::partial);
   }
@@ -189,7 +198,9 @@ Bounds pow(const Bounds& a, const Bounds& b) {
     const Bounds result = whole_power(a, b.upper);
     return {result.minus_lower, result.upper, std::max(result.continuity, b.continuity)};
   }
-  if (-b.minus_lower != b.upper && a.minus_lower > 0.0) return everything(Continuity::partial);
+  if (a.minus_lower > 0.0 && std::floor(b.upper) >= -b.minus_lower) {
+    return power_of_any_sign(a, b);  // with a whole number among the exponents
+  }
   const Bounds base = restricted(a, 0.0, infinity);
   if (base.is_undefined()) return base;
   Bounds result{-infinity, -infinity, continuity_of_power(base, b)};

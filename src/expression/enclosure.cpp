@@ -12,9 +12,21 @@ namespace backlight {
 /// A value and its derivative along the line.
 using BoundsSlope = Derivatives<Bounds, 1>;
 
+/// Of min and max: the slope of the operand that is chosen, or, where that may be either, the slopes of both.
+/// `first` holds 1 where `a` may be chosen and 0 where it may not be.
+Bounds slope_of_choice(const Bounds& first, const Bounds& a, const Bounds& b) {
+  if (first.is_undefined() || worse(a, b) == Continuity::undefined) return nowhere();
+  if (first.minus_lower < 0.0) return a;
+  if (first.upper == 0.0) return b;
+  return {std::max(a.minus_lower, b.minus_lower), std::max(a.upper, b.upper), worse(a, b)};
+}
+
 template <>
 BoundsSlope apply<BoundsSlope>(Operation operation, const BoundsSlope& a, const BoundsSlope& b) {
-  return differentiate(operation, a, b);
+  if (operation != Operation::min && operation != Operation::max) return differentiate(operation, a, b);
+  const Bounds first =
+      operation == Operation::min ? slope_of_minimum(a.value, b.value) : slope_of_maximum(a.value, b.value);
+  return {apply<Bounds>(operation, a.value, b.value), {slope_of_choice(first, a.partial[0], b.partial[0])}};
 }
 
 namespace {

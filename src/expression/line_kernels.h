@@ -76,10 +76,31 @@ BACKLIGHT_LANES LaneNumber<V> exactly(V number, LaneNumber<V>*) {
   return LaneNumber<V>(number);
 }
 
+/// Of min and max: the slope of the operand that is chosen, or, where that may be either, the slopes of both.
+/// `first` holds 1 where `a` may be chosen and 0 where it may not be.
+template <class V>
+BACKLIGHT_LANES LaneBounds<V> slope_of_choice(LaneBounds<V> first, LaneBounds<V> a, LaneBounds<V> b) {
+  const auto always = first.minus_lower < V(0.0);
+  const auto never = first.upper == V(0.0);
+  const auto of = [&](V one, V other) {
+    return select(always, one, select(never, other, larger(one, other)));
+  };
+  return {of(a.minus_lower, b.minus_lower), of(a.upper, b.upper)};
+}
+template <class V>
+BACKLIGHT_LANES LaneNumber<V> slope_of_choice(LaneNumber<V> first, LaneNumber<V> a, LaneNumber<V> b) {
+  return LaneNumber<V>(select(first.v > V(0.0), a.v, b.v));
+}
+
 /// The chain rule; for the commonest operations without factors of ±1.
 template <Operation operation, class N>
-BACKLIGHT_LANES N chain(N a, N a_slope, N b_slope, N along_a, N along_b, bool a_changes, bool b_changes) {
-  if constexpr (operation == Operation::negate) {
+BACKLIGHT_LANES N chain(N a, N b, N a_slope, N b_slope, N along_a, N along_b, bool a_changes,
+                        bool b_changes) {
+  if constexpr (operation == Operation::min) {
+    return slope_of_choice(slope_of_minimum(a, b), a_slope, b_slope);
+  } else if constexpr (operation == Operation::max) {
+    return slope_of_choice(slope_of_maximum(a, b), a_slope, b_slope);
+  } else if constexpr (operation == Operation::negate) {
     return -a_slope;
   } else if constexpr (operation == Operation::square) {
     const N half = a * a_slope;
@@ -118,33 +139,33 @@ class LineKernel {
         case Operation::variable:
           variable(work, step.a, out);
           break;
-#define BACKLIGHT_CASE(identifier, name, operands, value, da, db)                                 \
-  case Operation::identifier: {                                                                   \
-    const double* const in_a = at(work, step.a);                                                  \
-    const double* const in_b = operands == 2 ? at(work, step.b) : in_a;                           \
-    const bool changes = step.slope_a || step.slope_b;                                            \
-    for (std::size_t k = 0; k < work.stride; k += V::width) {                                     \
-      N a, b;                                                                                     \
-      load(in_a + k, work.stride, a);                                                             \
-      load(in_b + k, work.stride, b);                                                             \
-      const N v = value;                                                                          \
-      if constexpr (with_slope) {                                                                 \
-        if (changes) {                                                                            \
-          N a_slope, b_slope;                                                                     \
-          load(in_a + values(work) + k, work.stride, a_slope);                                    \
-          load(in_b + values(work) + k, work.stride, b_slope);                                    \
-          const N along_a = step.slope_a ? N(da) : N(0.0);                                        \
-          const N along_b = operands == 2 && step.slope_b ? N(db) : N(0.0);                       \
-          store(out + values(work) + k, work.stride,                                              \
-                chain<Operation::identifier>(a, a_slope, b_slope, along_a, along_b, step.slope_a, \
-                                             step.slope_b));                                      \
-        } else {                                                                                  \
-          store(out + values(work) + k, work.stride, N(0.0));                                     \
-        }                                                                                         \
-      }                                                                                           \
-      store(out + k, work.stride, v);                                                             \
-    }                                                                                             \
-    break;                                                                                        \
+#define BACKLIGHT_CASE(identifier, name, operands, value, da, db)                                    \
+  case Operation::identifier: {                                                                      \
+    const double* const in_a = at(work, step.a);                                                     \
+    const double* const in_b = operands == 2 ? at(work, step.b) : in_a;                              \
+    const bool changes = step.slope_a || step.slope_b;                                               \
+    for (std::size_t k = 0; k < work.stride; k += V::width) {                                        \
+      N a, b;                                                                                        \
+      load(in_a + k, work.stride, a);                                                                \
+      load(in_b + k, work.stride, b);                                                                \
+      const N v = value;                                                                             \
+      if constexpr (with_slope) {                                                                    \
+        if (changes) {                                                                               \
+          N a_slope, b_slope;                                                                        \
+          load(in_a + values(work) + k, work.stride, a_slope);                                       \
+          load(in_b + values(work) + k, work.stride, b_slope);                                       \
+          const N along_a = step.slope_a ? N(da) : N(0.0);                                           \
+          const N along_b = operands == 2 && step.slope_b ? N(db) : N(0.0);                          \
+          store(out + values(work) + k, work.stride,                                                 \
+                chain<Operation::identifier>(a, b, a_slope, b_slope, along_a, along_b, step.slope_a, \
+                                             step.slope_b));                                         \
+        } else {                                                                                     \
+          store(out + values(work) + k, work.stride, N(0.0));                                        \
+        }                                                                                            \
+      }                                                                                              \
+      store(out + k, work.stride, v);                                                                \
+    }                                                                                                \
+    break;                                                                                           \
   }
           BACKLIGHT_OPERATIONS(BACKLIGHT_CASE)
 #undef BACKLIGHT_CASE

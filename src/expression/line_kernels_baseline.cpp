@@ -16,10 +16,12 @@ void bounds_of_each(Operation operation, std::size_t lanes, const double* a_minu
                     const double* a_upper, const double* b_minus_lower, const double* b_upper,
                     double* minus_lower, double* upper) {
   for (std::size_t i = 0; i < lanes; ++i) {
-    const Bounds a(a_minus_lower[i], a_upper[i], Continuity::continuous);
-    const Bounds b(b_minus_lower[i], b_upper[i], Continuity::continuous);
+    const Bounds a = checked(a_minus_lower[i], a_upper[i], Continuity::continuous);
+    const Bounds b = checked(b_minus_lower[i], b_upper[i], Continuity::continuous);
     const Bounds result = apply<Bounds>(operation, a, b);
-    if (result.continuity != Continuity::continuous) note_trouble();
+    // at_nearest() puts back the flags that tell of an overflow.
+    const bool finite = result.minus_lower < infinity && result.upper < infinity;
+    if (result.continuity != Continuity::continuous || !finite) note_trouble();
     minus_lower[i] = result.minus_lower;
     upper[i] = result.upper;
   }

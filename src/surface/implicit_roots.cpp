@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "backlight/expression/enclosure.h"
+#include "root_evidence.h"
 
 namespace backlight {
 namespace {
@@ -11,8 +12,13 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// A line on which f has more cells than this has infinitely many roots, like sin(1/x), or might as well.
+/// A line on which f has more cells than this has infinitely many roots, like sin(1/x), or might as well:
+/// what is left of it is divided into `last_cells` at most.
 constexpr std::size_t most_cells = 20000;
+constexpr double last_cells = 4096.0;
+
+/// However nearly a line is parallel to a jump of f, cells beside that are divided to this part of the whole.
+constexpr double widest_jump = 0x1p-20;
 
 /// Where a cell is divided when its ends happen to lie on roots: nowhere near a simple fraction.
 constexpr double uneven = 0.381966011250105;
@@ -55,6 +61,7 @@ RootWalk::RootWalk(const ImplicitFormula& f, const FormulaLine& line, double fro
   a_ = start_;
   at_a_ = at(a_);
   step_ = end_ - start_;
+  jump_cell_ = std::min(RootEvidence(f_, line_).resolution_of_jumps(), widest_jump * step_);
   sign_at_start_ = at_a_.sign;
   negative_ = at_a_.sign < 0;
 }
@@ -83,6 +90,7 @@ RootWalk::PointValue RootWalk::look_at(double s) {
   } else {
     result.undetermined = value.continuity == Continuity::continuous;
   }
+  result.doubtful = value.continuity == Continuity::partial;
   // At a point the width of the interval is the rounding of f, and nothing else.
   result.hidden = result.undetermined || (value.continuity == Continuity::continuous &&
                                           result.least <= hiding * (value.upper - value.lower));
@@ -92,7 +100,8 @@ RootWalk::PointValue RootWalk::look_at(double s) {
 /// A cell no wider than the spacing of doubles at its place says nothing new when divided. Relative to the
 /// cell's own place on the line, whose origin is near the surface, down to a tiny part of the whole search.
 double RootWalk::smallest_cell(double from, double to) const {
-  return 2.0 * epsilon * std::max({std::abs(from), std::abs(to), 0x1p-40 * (end_ - start_)});
+  const double spacing = 2.0 * epsilon * std::max({std::abs(from), std::abs(to), 0x1p-40 * (end_ - start_)});
+  return std::max(spacing, least_cell_);
 }
 
 double RootWalk::settle(double s, int side) {
@@ -110,17 +119,47 @@ void RootWalk::advance(double to, const PointValue& there) {
   at_a_ = there;
 }
 
-/// Closes the unresolved root. True: it is reported as `root`.
+/// Closes the stretch that could not be divided further. True: there is a root on it, reported as `root`.
 bool RootWalk::end_zone(Root& root) {
   in_zone_ = false;
-  root = {0.5 * (zone_start_ + zone_end_),
+  const RootEvidence evidence(f_, line_);
+  const bool changes = sign_before_zone_ * sign_after_zone_ < 0 || zone_has_root_;
+  if (evidence.vanishes(zone_start_, zone_end_)) return false;
+  if (!changes && !evidence.comes_to_zero(zone_start_, zone_end_)) return false;
+  return report_zone(root);
+}
+
+/// What kind of root it is. Where f is 0 all over the stretch, as between two boxes that touch, its ends are
+/// faces.
+bool RootWalk::report_zone(Root& root) {
+  const RootEvidence evidence(f_, line_);
+  const double start = zone_start_;
+  const double end = zone_end_;
+  if (sign_before_zone_ * sign_after_zone_ < 0 && evidence.goes_through(start, end)) {
+    root = polished(start, end, sign_before_zone_);
+    return wanted(root);
+  }
+  const auto face = [&](double at, int before, int after) {
+    return Root{std::clamp(at, from_, to_), RootKind::crossing, before, after, at, at};
+  };
+  const bool face_before = sign_before_zone_ != 0 && evidence.leaves_at_once(start, -1, end - start);
+  const bool face_behind = sign_after_zone_ != 0 && evidence.leaves_at_once(end, 1, end - start);
+  if (face_before || face_behind) {
+    root = face_before ? face(start, sign_before_zone_, 0) : face(end, 0, sign_after_zone_);
+    if (face_before && face_behind) hold(face(end, 0, sign_after_zone_));
+    return wanted(root);
+  }
+  root = {std::clamp(0.5 * (start + end), from_, to_),
           RootKind::unresolved,
           sign_before_zone_,
           sign_after_zone_,
-          zone_start_,
-          zone_end_};
-  root.t = std::clamp(root.t, from_, to_);
+          start,
+          end};
   return wanted(root);
+}
+
+void RootWalk::hold(const Root& root) {
+  if (wanted(root)) held_[held_count_++] = root;
 }
 
 /// The cell [a_, to] can be divided no further.
@@ -129,10 +168,18 @@ void RootWalk::add_to_zone(double to, const PointValue& there, bool core) {
     in_zone_ = true;
     zone_start_ = a_;
     sign_before_zone_ = at_a_.sign;
+    zone_has_root_ = false;
   }
+  zone_has_root_ = zone_has_root_ || changes_sign(to);
   zone_end_ = to;
   if (core) zone_core_ = to;
   sign_after_zone_ = there.sign;
+}
+
+/// Whether f certainly has different signs somewhere in [a_, to].
+bool RootWalk::changes_sign(double to) {
+  const int middle = at(a_ + 0.5 * (to - a_)).sign;
+  return at_a_.sign * middle < 0 || at_a_.sign * at(to).sign < 0 || middle * at(to).sign < 0;
 }
 
 /// Newton's steps in double precision, inside a bracket that is halved whenever they do not do better.
@@ -172,8 +219,8 @@ Root RootWalk::polished(double low, double high, int sign_low) const {
 RootWalk::Verdict RootWalk::try_cell(double to, Root& root) {
   ++work_.cells;
   const IntervalSlope cell = enclose(f_.expression().tape(), variables_of(line_), a_, to);
-  const Continuity continuity = cell.value.continuity;
-  if (continuity == Continuity::undefined) {
+  continuity_ = cell.value.continuity;
+  if (continuity_ == Continuity::undefined) {
     advance(to, {});
     return Verdict::advanced;
   }
@@ -182,7 +229,7 @@ RootWalk::Verdict RootWalk::try_cell(double to, Root& root) {
     advance(to, {positive ? 1 : -1, positive ? cell.value.lower : -cell.value.upper, false});
     return Verdict::advanced;
   }
-  if (continuity != Continuity::continuous || at_a_.sign == 0) return Verdict::split;
+  if (continuity_ != Continuity::continuous || at_a_.sign == 0) return Verdict::split;
   const bool monotone = !has_zero(cell.slope);
   double end = to;
   PointValue at_end = at(end);
@@ -205,12 +252,29 @@ RootWalk::Verdict RootWalk::try_cell(double to, Root& root) {
   return Verdict::advanced;
 }
 
-/// Whether the sign of f is hidden by the rounding of f itself all over [a_, to]. One or two points may lie
-/// on roots by chance; these four do not.
-bool RootWalk::hidden_by_rounding(double to) {
+/// Whether rounding hides something of f all over [a_, to]. One or two points may lie on roots by chance;
+/// these four do not.
+bool RootWalk::everywhere(double to, bool PointValue::*what) {
   const double length = to - a_;
-  return hidden_at(to) && hidden_at(a_ + 0.5 * length) && hidden_at(a_ + uneven * length) &&
-         hidden_at(a_ + 0.8090169943749475 * length);
+  return at_a_.*what && at(to).*what && at(a_ + 0.5 * length).*what && at(a_ + uneven * length).*what &&
+         at(a_ + 0.8090169943749475 * length).*what;
+}
+
+/// What is to be done about a cell of which nothing could be said.
+RootWalk::Outlook RootWalk::outlook(double to, bool beside_zone) {
+  const double length = to - a_;
+  const bool smallest = !(length > smallest_cell(a_, to));
+  if (continuity_ == Continuity::continuous) {
+    const bool hidden = smallest || beside_zone || everywhere(to, &PointValue::hidden);
+    return hidden ? Outlook::zone : Outlook::divide;
+  }
+  // A pole, a jump or the edge of a domain is no surface, nor is a piece on which f may be defined nowhere.
+  const bool jump = smallest || !(length > jump_cell_) || everywhere(to, &PointValue::doubtful);
+  return jump ? Outlook::drop : Outlook::divide;
+}
+
+void RootWalk::count_cell() {
+  if (cells_left_ > 0 && --cells_left_ == 0) least_cell_ = (end_ - a_) / last_cells;
 }
 
 /// Whether f has become negative, or ceased to be, without a root, from `at` on.
@@ -227,10 +291,25 @@ bool RootWalk::next(Root& root) {
   return true;
 }
 
+/// A crossing was found behind a_.
+bool RootWalk::meet_crossing(Root& root) {
+  if (root.t < from_ || root.t > to_) {
+    negative_ = root.sign_after < 0;
+    return false;
+  }
+  if (!in_zone_) return true;
+  const Root crossing = root;
+  const bool before = end_zone(root);  // comes first
+  if (!before) root = crossing;
+  if (before) hold(crossing);
+  return true;
+}
+
 bool RootWalk::find(Root& root) {
-  if (held_) {
-    root = held_root_;
-    held_ = false;
+  if (held_count_ > 0) {
+    root = held_[0];
+    held_[0] = held_[1];
+    --held_count_;
     return true;
   }
   while (a_ < end_) {
@@ -238,39 +317,29 @@ bool RootWalk::find(Root& root) {
       return true;
     }
     double to = std::min(a_ + step_, end_);
-    if (end_ - to < smallest_cell(to, end_) || cells_left_ == 0) to = end_;
-    cells_left_ -= cells_left_ > 0 ? 1 : 0;
+    // A scrap at the end is taken along, unless that would undo a division.
+    if (end_ - to < std::min(0.5 * step_, smallest_cell(to, end_))) to = end_;
+    count_cell();
     const double length = to - a_;
     const bool fine =
         in_zone_ && length <= 0.25 * (zone_core_ - zone_start_) && a_ - zone_core_ < zone_core_ - zone_start_;
     const double begin = a_;
     const Verdict verdict = try_cell(to, root);
-    if (verdict == Verdict::advanced) {
-      if (jumped(begin, root)) return true;
+    if (verdict == Verdict::crossing) {
+      if (meet_crossing(root)) return true;
       continue;
     }
-    if (verdict == Verdict::crossing) {
-      if (root.t < from_ || root.t > to_) {
-        negative_ = root.sign_after < 0;
+    if (verdict == Verdict::split) {
+      const Outlook what = outlook(to, fine);
+      if (what == Outlook::divide) {
+        step_ = length * (at(a_ + 0.5 * length).undetermined ? uneven : 0.5);
         continue;
       }
-      held_root_ = root;
-      held_ = in_zone_ && end_zone(root);  // the unresolved one comes first
-      if (!held_) root = held_root_;
-      return true;
+      if (what == Outlook::zone) add_to_zone(to, at(to), !fine || !(length > smallest_cell(a_, to)));
+      advance(to, at(to));
     }
-    const bool smallest = !(length > smallest_cell(a_, to)) || cells_left_ == 0;
-    if (!smallest && !fine && !hidden_by_rounding(to)) {
-      step_ = length * (at(a_ + 0.5 * length).undetermined ? uneven : 0.5);
-      continue;
-    }
-    // Too small to divide: a pole, a jump or the edge of a domain, which is no surface; or unresolved.
-    const PointValue there = at(to);
-    if (cells_left_ == 0 || enclose(f_.expression().tape(), variables_of(line_), a_, to).value.continuity ==
-                                Continuity::continuous) {
-      add_to_zone(to, there, smallest || !fine);
-    }
-    advance(to, there);
+    // No root is looked for across a place where f is not continuous.
+    if (continuity_ != Continuity::continuous && in_zone_ && end_zone(root)) return true;
     if (jumped(begin, root)) return true;
   }
   return in_zone_ && end_zone(root);

@@ -21,8 +21,8 @@ struct FormulaLine {
 };
 
 enum class RootKind : std::uint8_t {
-  crossing,    ///< one root, of which the sign of f before and after is certain
-  unresolved,  ///< f is so close to 0 over the enclosure that rounding hides whether, or how often, it is 0
+  crossing,    ///< one root, or the end of a stretch of them, at which f certainly gets to 0
+  unresolved,  ///< f comes to 0 continuously, and rounding hides whether it touches it, and how often
   jump         ///< no root: f becomes negative, or ceases to be, at a pole, a jump or the edge of its domain
 };
 
@@ -33,9 +33,10 @@ enum class Jumps : std::uint8_t { ignore, report };
 struct Root {
   double t = 0.0;
   RootKind kind = RootKind::crossing;
-  /// The signs of f just before and after: -1 inside, 1 outside, 0 unknown (the edge of a domain). A crossing
-  /// has different ones. An unresolved root with equal signs is a touching (or a near miss, or an even number
-  /// of roots); with different signs there are an odd number of roots in the enclosure.
+  /// The signs of f just before and after: -1 inside, 1 outside, 0 unknown (the edge of a domain, or a whole
+  /// stretch where f is 0, at whose ends there are crossings). A crossing has different ones. An unresolved
+  /// root with equal signs is a touching (or a near miss, or an even number of roots); with different signs
+  /// there are an odd number of roots in the enclosure.
   int sign_before = 0;
   int sign_after = 0;
   /// Where the root is. Of a crossing: the bracket in which it was found, where f is monotone; t is then as
@@ -124,24 +125,31 @@ class RootWalk {
     double least = 0.0;
     bool undetermined = false;  ///< continuous, and nothing but rounding hides the sign
     bool hidden = false;        ///< the same, or nearly so
+    bool doubtful = false;      ///< rounding hides whether f is defined at all
   };
 
   PointValue at(double s);
   PointValue look_at(double s);
-  [[nodiscard]] bool hidden_at(double s) { return at(s).hidden; }
   /// Moves s outwards (side = ±1) until the sign of f there is certain, if it soon is.
   double settle(double s, int side);
   [[nodiscard]] double smallest_cell(double from, double to) const;
   void advance(double to, const PointValue& there);
   bool end_zone(Root& root);
+  bool report_zone(Root& root);
+  void hold(const Root& root);
   void add_to_zone(double to, const PointValue& there, bool core);
+  bool changes_sign(double to);
   Root polished(double low, double high, int sign_low) const;
   [[nodiscard]] bool wanted(const Root& root) const { return root.upper >= from_ && root.lower <= to_; }
   bool find(Root& root);
   bool jumped(double at, Root& root);
   enum class Verdict { advanced, crossing, split };
   Verdict try_cell(double to, Root& root);
-  bool hidden_by_rounding(double to);
+  bool meet_crossing(Root& root);
+  enum class Outlook { divide, zone, drop };
+  Outlook outlook(double to, bool beside_zone);
+  bool everywhere(double to, bool PointValue::*what);
+  void count_cell();
 
   const ImplicitFormula& f_;
   const FormulaLine line_;
@@ -164,8 +172,13 @@ class RootWalk {
   double zone_end_ = 0.0;
   int sign_before_zone_ = 0;
   int sign_after_zone_ = 0;
-  bool held_ = false;  // a crossing that was found while an unresolved root before it was open
-  Root held_root_;
+  bool zone_has_root_ = false;  // f changes its sign in a cell of it, continuously
+  // Found together with the one before: the end of a stretch of roots, and a crossing behind an open zone.
+  std::array<Root, 2> held_;
+  std::size_t held_count_ = 0;
+  Continuity continuity_ = Continuity::continuous;  // of f over the cell that was looked at last
+  double jump_cell_ = 0.0;   // a cell in which f is not continuous is not divided further than this
+  double least_cell_ = 0.0;  // nor any cell further than this
   std::size_t cells_left_;
   mutable RootWork work_;
 };

@@ -48,14 +48,22 @@ double extent_of(const Shape& shape, const Extent& e) {
   return reach.x * e.x + reach.y * e.y + reach.z * e.z;
 }
 
-Stretch inside_bounds(const Shape& shape, const LocalLine& line) {
+/// The part of a line within bounds that are wider by `room`.
+Stretch inside_bounds(const Shape& shape, const LocalLine& line, const Vec3& room = Vec3{0.0}) {
   const Vec3 centre = 0.5 * low_of(shape) + 0.5 * high_of(shape);
-  const Vec3 half = 0.5 * high_of(shape) - 0.5 * low_of(shape);
+  const Vec3 half = 0.5 * high_of(shape) - 0.5 * low_of(shape) + room;
   Stretch stretch;
   for (int i = 0; i < 3; ++i) {
     narrow_to_slab(stretch, line.point[i] - centre[i], line.direction[i], half[i], 2 * i + caps);
   }
   return stretch;
+}
+
+/// Where surfaces are looked for: a face of the bounds that happens to be one is not lost by rounding.
+Stretch with_faces(const Shape& shape, const LocalLine& line) {
+  constexpr double few_roundings = 4.0 * std::numeric_limits<double>::epsilon();
+  return inside_bounds(shape, line,
+                       few_roundings * glm::max(glm::abs(low_of(shape)), glm::abs(high_of(shape))));
 }
 
 FormulaLine formula_line(const Shape& shape, const LocalLine& line) {
@@ -129,7 +137,7 @@ void first_crossings_of(const Shape& shape, const LocalLines& lines, double lamb
   Questions& q = questions_of_thread();
   for (std::size_t i = 0; i < lines.count; ++i) {
     const LocalLine line = lines.line(i);
-    ask(shape, line, inside_bounds(shape, line), lines.at_lambda(i, lambda_min), i, q);
+    ask(shape, line, with_faces(shape, line), lines.at_lambda(i, lambda_min), i, q);
   }
   answer(shape, q, RootsWanted::places);
   for (std::size_t k = 0; k < q.pieces.size(); ++k) {
@@ -155,7 +163,7 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
   std::size_t line_of[LocalLines::most];
   for (std::size_t i = 0; i < lines.count; ++i) {
     const LocalLine line = lines.line(i);
-    const Stretch stretch = inside_bounds(shape, line);
+    const Stretch stretch = with_faces(shape, line);
     if (lines.is_before(i, stretch.out, lambda_max)) {
       ask(shape, line, stretch, lines.at_lambda(i, lambda_min), i, q);
     } else {
@@ -193,7 +201,7 @@ Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_
     if (first.t < infinite) result.list[result.count++] = {first.t, 0, first.unresolved};
     return result;
   }
-  const Stretch stretch = inside_bounds(shape, line);
+  const Stretch stretch = with_faces(shape, line);
   if (!(stretch.in <= stretch.out)) return {};
   return walk_along(shape, line, stretch.in, stretch.out, lambda_min, wanted);
 }
