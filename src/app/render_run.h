@@ -60,7 +60,10 @@ class RenderRun {
   template <class Step>
   Outcome explained(const PlannedImage& image, const FilmSettings& film, const Step& step);
   Outcome begin(const PlannedImage& image, std::unique_ptr<Claim> claim);
+  Outcome scene_is_wrong(const PlannedImage& image);
   Outcome start(Work& work);
+  /// Throws what to do instead where the image's pixels do not fit into memory.
+  Outcome find_memory(const Work& work);
   Outcome finish(const std::shared_ptr<Work>& work);
   Outcome stop(const Work& work);
   /// Sends the image on its way; store() and conclude() follow on a thread of their own.
@@ -85,6 +88,7 @@ class RenderRun {
   ProgressReporter progress_;
   std::optional<Scene> first_;
   bool has_stopped_ = false;
+  bool some_failed_ = false;                   // of those that were finished to make room for another
   double last_seconds_ = 1.0;                  // that the image before took
   std::vector<const PlannedImage*> waiting_;   // in the hands of other processes
   std::deque<std::shared_ptr<Work>> in_hand_;  // being traced, or begun behind those
