@@ -2,10 +2,13 @@
 #include <iostream>
 #include <vector>
 
+#include "backlight/base/memory.h"
+#include "backlight/render/image_memory.h"
 #include "backlight/render/wavelength_estimate.h"
 #include "backlight/scene/explain.h"
 #include "commands.h"
 #include "exit_codes.h"
+#include "messages.h"
 #include "scene_session.h"
 #include "strategy_words.h"
 
@@ -21,19 +24,38 @@ std::vector<int> frames_to_check(const std::vector<int>& frames) {
   return some;
 }
 
+// What rendering takes, and a warning where that is not there.
+std::string memory_line(const Scene& scene, const RenderSettings& settings) {
+  const std::uint64_t surfaces = surface_bytes(scene);
+  const std::uint64_t textures = texture_bytes(scene);
+  std::string text = "  memory     " + memory_words(image_bytes(scene, settings)) + " for the pixels";
+  if (surfaces > 0) text += ", " + memory_words(surfaces) + " for the surfaces";
+  if (textures > 0) text += ", " + memory_words(textures) + " for the textures";
+  return text + '\n';
+}
+
+void warn_of_shortage(const Scene& scene, const RenderSettings& settings) {
+  const auto left = memory_left();
+  if (!left) return;
+  if (const std::string shortage = memory_shortage(scene, settings, *left); !shortage.empty())
+    print_warning(shortage);
+}
+
 }  // namespace
 
 int run(const CheckOptions& options) {
   SceneSession session(options.scene);
   if (session.exit_code() != exit_success) return session.exit_code();
-  const auto scene = session.compile(options.scene.request);
+  ImageRequest outline = options.scene.request;
+  outline.outline = true;
+  const auto scene = session.compile(outline);
   if (!scene) return session.exit_code();
 
   const std::vector<int> frames = session.frames();
   const std::vector<int> checked = frames_to_check(frames);
   CompileCounts last;
   for (const int frame : checked) {
-    ImageRequest request = options.scene.request;
+    ImageRequest request = outline;
     request.frame = frame;
     if (const auto image = session.compile(request)) {
       last = image->counts;
@@ -43,9 +65,10 @@ int run(const CheckOptions& options) {
     return session.exit_code();
   }
   if (!session.check_camera_path(options.scene.request)) return session.exit_code();
+  warn_of_shortage(*scene, {});
   if (options.verbosity == Verbosity::quiet) return exit_success;
   std::cout << explain(session.description(), *scene, needs_within_tolerance(*scene))
-            << strategy_lines(*scene, trace_strategy(*scene));
+            << strategy_lines(*scene, trace_strategy(*scene)) << memory_line(*scene, {});
   if (frames.size() > 1) {
     std::cout << reuse_line(last) << "No mistakes in " << checked.size() << " of its " << frames.size()
               << " frames.\n";

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "backlight/base/diagnostics.h"
@@ -629,6 +630,31 @@ Answer unknown_argument(const std::string& command, const CLI::App& app,
                                   (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
 }
 
+// Of the first `count` arguments, an option that no command has: what follows it may be meant as its value.
+std::optional<std::string> unknown_option(const std::vector<std::string>& arguments, std::size_t count) {
+  std::vector<Parser> parsers;
+  for (const char* name : command_names) parsers.push_back(make_parser(name));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string& argument = arguments[i];
+    // Of short options, the letter: its value may be joined to it.
+    const std::string name =
+        argument.starts_with("--") ? argument.substr(0, argument.find('=')) : argument.substr(0, 2);
+    const bool known = std::any_of(parsers.begin(), parsers.end(), [&name](const Parser& parser) {
+      return parser.app->get_option_no_throw(name) != nullptr;
+    });
+    if (!known && is_flag(argument)) return argument;
+    if (takes_next(argument, parsers)) ++i;
+  }
+  return std::nullopt;
+}
+
+// The first of the arguments that names a command; without one, to render is meant.
+std::string meant_command(const std::vector<std::string>& arguments) {
+  const auto named = std::find_first_of(arguments.begin(), arguments.end(), command_names.begin(),
+                                        command_names.end(), std::equal_to<std::string>());
+  return named != arguments.end() ? *named : "render";
+}
+
 // CLI11 leaves two blank lines between groups, and one at the end.
 std::string one_blank_line(std::string text) {
   for (std::size_t i = text.find("\n\n\n"); i != std::string::npos; i = text.find("\n\n\n", i))
@@ -685,6 +711,10 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
   const bool looks_like_a_file =
       word.find_first_of("./") != std::string::npos || std::filesystem::exists(word);
   if (!looks_like_a_file) {
+    if (const auto option = unknown_option(arguments, place)) {
+      const std::string command = meant_command(arguments);
+      return unknown_argument(command, *make_parser(command).app, {*option});
+    }
     const std::string nearest = nearest_name(word, {command_names.begin(), command_names.end()});
     return usage_error("", "there is neither a command nor a file called '" + word + "'" +
                                (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));

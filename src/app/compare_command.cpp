@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,7 +52,7 @@ bool is_to_be_updated(const std::vector<CompareOutcome>& parts) {
 }
 
 Result<void> update(const ImagePair& pair) {
-  const auto bytes = read_file(pair.now);
+  const auto bytes = read_file(pair.now, std::numeric_limits<std::size_t>::max());
   if (!bytes.ok()) return bytes.failure();
   return write_file(pair.reference_place, bytes.value());
 }

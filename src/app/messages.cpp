@@ -21,7 +21,20 @@ void print_warning(std::string_view message) {
 }
 
 void print(const Diagnostics& diagnostics) {
-  for (const Diagnostic& diagnostic : diagnostics.all()) std::cerr << format(diagnostic) << '\n';
+  constexpr std::size_t most_shown = 100;
+  std::size_t shown = 0;
+  // Errors before warnings, where not all are shown.
+  const bool all = diagnostics.all().size() <= most_shown;
+  for (const Severity severity : {Severity::error, Severity::warning}) {
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+      if (all && severity == Severity::warning) break;
+      if (shown == most_shown) break;
+      if (!all && diagnostic.severity != severity) continue;
+      std::cerr << format(diagnostic) << '\n';
+      ++shown;
+    }
+  }
+  if (!all) std::cerr << "and " << diagnostics.all().size() - shown << " more\n";
   const std::size_t errors = diagnostics.error_count();
   const std::size_t warnings = diagnostics.all().size() - errors;
   if (errors + warnings < 2) return;

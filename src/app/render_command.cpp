@@ -73,6 +73,10 @@ int run(const RenderOptions& options) {
   const bool nothing_planned = images.value().empty();  // [animation] is wrong: compile() says how
   if (images.value().size() <= 1) session.expect_one_image();
   auto first = session.compile(nothing_planned ? options.scene.request : images.value().front().request);
+  if (!first && images.value().size() > 1) {
+    print_error(images.value().front().exr.string() + ": not made, the scene is wrong in frame " +
+                std::to_string(images.value().front().request.frame.value_or(1)));
+  }
   if (!first || nothing_planned) return exit_scene_wrong;
 
   const FilmSettings& film = first->film;

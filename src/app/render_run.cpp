@@ -9,14 +9,17 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "backlight/base/json_text.h"
+#include "backlight/base/memory.h"
 #include "backlight/base/thread_pool.h"
 #include "backlight/film/display.h"
 #include "backlight/render/image_identity.h"
+#include "backlight/render/image_memory.h"
 #include "backlight/render/partial_file.h"
 #include "backlight/render/wavelength_estimate.h"
 #include "exit_codes.h"
@@ -80,7 +83,7 @@ int RenderRun::run(Scene first) {
   if (outcome == Outcome::stopped) return exit_stopped + stop_signal();
   if (outcome == Outcome::file_trouble || deliveries_.has_failed() || lost_statistics_)
     return exit_file_trouble;
-  return outcome == Outcome::made && !lacked_memory_ ? exit_success : exit_frame_failed;
+  return outcome == Outcome::made && !lacked_memory_ && !some_failed_ ? exit_success : exit_frame_failed;
 }
 
 // Images can be traced with fewer threads than were asked for, and with none but this one.
@@ -256,12 +259,20 @@ RenderRun::Outcome RenderRun::explained(const PlannedImage& image, const FilmSet
 RenderRun::Outcome RenderRun::begin(const PlannedImage& image, std::unique_ptr<Claim> claim) {
   std::optional<Scene> scene = std::exchange(first_, std::nullopt);
   if (!scene) scene = session_.compile(image.request);
-  if (!scene) return Outcome::failed;
+  if (!scene) return scene_is_wrong(image);
   const auto work = std::make_shared<Work>(image, *std::move(scene));
   work->claim = std::move(claim);
   const Outcome outcome = explained(image, work->scene.film, [&] { return start(*work); });
   if (outcome == Outcome::begun) in_hand_.push_back(work);
   return outcome;
+}
+
+// What is wrong has been told, but not of which image.
+RenderRun::Outcome RenderRun::scene_is_wrong(const PlannedImage& image) {
+  const std::string frame =
+      image.request.frame ? " in frame " + std::to_string(*image.request.frame) : std::string();
+  progress_.say("backlight: error: " + image.exr.string() + ": not made, the scene is wrong" + frame);
+  return Outcome::failed;
 }
 
 RenderRun::Outcome RenderRun::start(Work& work) {
@@ -271,6 +282,7 @@ RenderRun::Outcome RenderRun::start(Work& work) {
   if (!creation_time.ok()) return trouble(creation_time.error());
   work.header = image_header(work.scene, work.settings.wavelengths, recogniser_.origin(*work.image),
                              creation_time.value());
+  if (const Outcome found = find_memory(work); found != Outcome::made) return found;
   work.partial = begin_image(work.scene, work.settings);
   if (options_.resume) resume(*work.image, work.partial);
   progress_.begin_image(work.image->exr.string(), tile_count(work.scene, work.settings));
@@ -282,6 +294,23 @@ RenderRun::Outcome RenderRun::start(Work& work) {
 
 bool RenderRun::has_lost_claim(const Work& work) {
   return work.claim != nullptr && work.claim->is_lost();
+}
+
+// Where memory is short, the images before this one are finished first, and give theirs back.
+RenderRun::Outcome RenderRun::find_memory(const Work& work) {
+  constexpr std::uint64_t worth_a_look = std::uint64_t{64} << 20U;
+  if (image_bytes(work.scene, work.settings) < worth_a_look) return Outcome::made;
+  const auto shortage = [&work] {
+    const auto left = memory_left();
+    return left ? memory_shortage(work.scene, work.settings, *left) : std::string();
+  };
+  if (shortage().empty()) return Outcome::made;
+  const Outcome before = finish_all();
+  if (before > Outcome::failed) return before;
+  some_failed_ = some_failed_ || before == Outcome::failed;
+  deliveries_.wait();
+  if (const std::string text = shortage(); !text.empty()) throw std::runtime_error(text);
+  return Outcome::made;
 }
 
 RenderRun::Outcome RenderRun::finish(const std::shared_ptr<Work>& work) {

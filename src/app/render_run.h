@@ -62,7 +62,10 @@ class RenderRun {
   template <class Step>
   Outcome explained(const PlannedImage& image, const FilmSettings& film, const Step& step);
   Outcome begin(const PlannedImage& image, std::unique_ptr<Claim> claim);
+  Outcome scene_is_wrong(const PlannedImage& image);
   Outcome start(Work& work);
+  /// Throws what to do instead where the image's pixels do not fit into memory.
+  Outcome find_memory(const Work& work);
   Outcome finish(const std::shared_ptr<Work>& work);
   static bool has_lost_claim(const Work& work);
   Outcome stop(const Work& work);
@@ -92,6 +95,7 @@ class RenderRun {
   bool lacked_memory_ = false;  // for an image that was traced
   std::optional<Scene> first_;
   bool has_stopped_ = false;
+  bool some_failed_ = false;                   // of those that were finished to make room for another
   double last_seconds_ = 1.0;                  // that the image before took
   std::optional<Claimant> claimant_;           // behind those who have claims
   std::vector<const PlannedImage*> waiting_;   // in the hands of other processes

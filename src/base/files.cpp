@@ -1,15 +1,18 @@
 #include "backlight/base/files.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <system_error>
 #include <utility>
 
 #include "backlight/base/interrupted.h"
+#include "backlight/base/sha256.h"
 
 namespace backlight {
 namespace {
@@ -22,6 +25,61 @@ std::string reason(int error_number) {
 
 Failure cannot_write(const fs::path& path, const std::string& why) {
   return {"cannot write " + path.string() + ": " + why};
+}
+
+Failure cannot_read(const fs::path& path, const std::string& why) {
+  return {"cannot read " + path.string() + ": " + why};
+}
+
+/// An open file, closed at the end.
+class Descriptor {
+ public:
+  /// Of a regular file, or of a pipe (a shell's `<(...)`). Devices are refused: they have no end. No pipe is
+  /// waited for that nobody writes to.
+  static Result<Descriptor> open(const fs::path& path) {
+    Descriptor file(unless_interrupted(
+        [&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); }));
+    struct stat status {};
+    if (file.number_ < 0 || ::fstat(file.number_, &status) != 0) return cannot_read(path, reason(errno));
+    if (S_ISDIR(status.st_mode)) return cannot_read(path, reason(EISDIR));
+    if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode)) {
+      return cannot_read(path, "it is neither a file nor a pipe");
+    }
+    return file;
+  }
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  explicit Descriptor(int number) : number_(number) {}
+  int number_;
+};
+
+constexpr int longest_wait = 10;  // seconds for the next bytes of a pipe
+
+/// Hands the file to `take` block by block, as long as that wants more.
+template <typename Take>
+Result<void> for_each_block(const Descriptor& file, const fs::path& path, const Take& take) {
+  std::array<char, std::size_t{1} << 16U> block;
+  for (;;) {
+    const ssize_t count =
+        unless_interrupted([&] { return ::read(file.number(), block.data(), block.size()); });
+    if (count == 0) return {};
+    if (count > 0) {
+      if (!take(std::string_view(block.data(), static_cast<std::size_t>(count)))) return {};
+      continue;
+    }
+    if (errno == EAGAIN) {
+      pollfd waiting{file.number(), POLLIN, 0};
+      if (::poll(&waiting, 1, 1000 * longest_wait) != 0) continue;
+      return cannot_read(path, "nothing has come from the pipe for " + std::to_string(longest_wait) + " s");
+    }
+    return cannot_read(path, reason(errno));
+  }
 }
 
 fs::path folder_of(const fs::path& path) {
@@ -217,32 +275,58 @@ Result<void> write_file(const fs::path& path, std::string_view contents) {
   return file.value().commit();
 }
 
-Result<std::string> read_file(const fs::path& path) {
-  const auto cannot_read = [&](int error_number) {
-    return Failure{"cannot read " + path.string() + ": " + reason(error_number)};
-  };
-  const int descriptor = unless_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); });
-  if (descriptor < 0) {
-    return cannot_read(errno);
+Result<void> require_regular_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) {
+    return cannot_read(
+        path, (error ? error : std::make_error_code(std::errc::no_such_file_or_directory)).message());
   }
+  if (fs::is_regular_file(status)) return {};
+  return cannot_read(path, fs::is_directory(status) ? reason(EISDIR) : "not a regular file");
+}
+
+Result<std::string> read_file(const fs::path& path, std::size_t longest) {
+  const auto file = Descriptor::open(path);
+  if (!file.ok()) return file.failure();
   std::string contents;
-  constexpr std::size_t block = 1U << 16U;
-  for (;;) {
-    const std::size_t size = contents.size();
-    contents.resize(size + block);
-    const ssize_t count = ::read(descriptor, contents.data() + size, block);
-    const int error_number = errno;
-    contents.resize(size + (count > 0 ? static_cast<std::size_t>(count) : 0));
-    if (count == 0) {
-      break;
-    }
-    if (count < 0 && error_number != EINTR) {
-      ::close(descriptor);
-      return cannot_read(error_number);
-    }
-  }
-  ::close(descriptor);
-  return contents;
+  const Result<void> read = for_each_block(file.value(), path, [&](std::string_view block) {
+    contents += block;
+    return contents.size() <= longest;
+  });
+  if (!read.ok()) return read.failure();
+  if (contents.size() <= longest) return contents;
+  return cannot_read(path, "it is longer than " + std::to_string(longest >> 20U) + " MiB");
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
+std::string fault_of_encoding(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  const bool marked = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
+  if (marked || bytes.starts_with("\0\0\xFE\xFF"sv)) return "it is UTF-16 or UTF-32 text; save it as UTF-8";
+  // Latin letters in UTF-16 are every other byte.
+  const std::string_view begin = bytes.substr(0, 64);
+  const bool alternates = begin.size() >= 4 && (begin[0] == 0) != (begin[1] == 0) &&
+                          (begin[2] == 0) == (begin[0] == 0) && (begin[3] == 0) == (begin[1] == 0);
+  if (alternates) return "it is UTF-16 text; save it as UTF-8";
+  return begin.find('\0') == std::string_view::npos ? "" : "it is not text: it has null bytes";
+}
+
+Result<std::string> sha256_of_file(const fs::path& path) {
+  if (const Result<void> regular = require_regular_file(path); !regular.ok()) return regular.failure();
+  const auto file = Descriptor::open(path);
+  if (!file.ok()) return file.failure();
+  Sha256 digest;
+  const Result<void> read = for_each_block(file.value(), path, [&](std::string_view block) {
+    digest.update(block);
+    return true;
+  });
+  if (!read.ok()) return read.failure();
+  return to_hex(digest.finish());
 }
 
 }  // namespace backlight

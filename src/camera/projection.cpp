@@ -138,7 +138,9 @@ double pixel_solid_angle(const Lens& lens, const ImagePoint& point) {
   return 0.0;
 }
 
-bool aim(Lens& lens, const Vec3& direction, const Vec3& up) {
+bool aim(Lens& lens, const Vec3& looking, const Vec3& upward) {
+  const Vec3 direction = of_size_one(looking);
+  const Vec3 up = of_size_one(upward);
   const double length = glm::length(direction);
   if (!(length > 0.0) || !std::isfinite(length)) return false;
   const Vec3 forward = direction / length;

@@ -45,13 +45,22 @@ Expression Expression::from_tape(std::string text, Tape tape, std::size_t variab
   return Expression(std::make_shared<const Compiled>(Compiled{std::move(text), std::move(tape), variables}));
 }
 
+VariableNames::VariableNames(std::vector<std::string> names) : names_(std::move(names)) {
+  for (std::size_t i = 0; i < names_.size(); ++i) index_of_.emplace(names_[i], i);
+}
+
+std::optional<std::size_t> VariableNames::find(std::string_view name) const {
+  const auto there = index_of_.find(std::string(name));
+  return there == index_of_.end() ? std::nullopt : std::optional(there->second);
+}
+
 std::variant<Expression, ExpressionError> Expression::parse(std::string_view text,
-                                                            const std::vector<std::string>& variables) {
+                                                            const VariableNames& variables) {
   Graph graph;
   try {
     const Graph::Node root = Parser(text, variables, graph).parse();
-    return Expression(
-        std::make_shared<const Compiled>(Compiled{std::string(text), graph.tape(root), variables.size()}));
+    return Expression(std::make_shared<const Compiled>(
+        Compiled{std::string(text), graph.tape(root), variables.names().size()}));
   } catch (ExpressionError& error) {
     return std::move(error);
   }
@@ -100,6 +109,16 @@ bool Expression::uses(std::size_t variable) const {
   return std::any_of(steps.begin(), steps.end(), [variable](const Instruction& step) {
     return step.operation == Operation::variable && step.a == variable;
   });
+}
+
+std::vector<std::size_t> Expression::used_variables() const {
+  std::vector<std::size_t> used;
+  for (const Instruction& step : compiled_->tape.instructions) {
+    if (step.operation == Operation::variable) used.push_back(step.a);
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return used;
 }
 
 std::optional<double> Expression::constant() const {

@@ -227,13 +227,13 @@ Graph::Node Parser::name() {
   const std::string_view word = spelling(token);
   if (function_arity(word)) return call(token);
   if (const auto constant = named_constant(word)) return graph_.constant(*constant);
-  const auto variable = std::find(variables_.begin(), variables_.end(), word);
-  if (variable == variables_.end()) fail_unknown(token);
-  return graph_.variable(static_cast<std::uint32_t>(variable - variables_.begin()));
+  const auto variable = variables_.find(word);
+  if (!variable) fail_unknown(token);
+  return graph_.variable(static_cast<std::uint32_t>(*variable));
 }
 
 void Parser::fail_unknown(const Token& name) const {
-  std::vector<std::string> known = variables_;
+  std::vector<std::string> known = variables_.names();
   const std::vector<std::string> names = expression_names();
   known.insert(known.end(), names.begin(), names.end());
   const std::string nearest = nearest_name(spelling(name), known);

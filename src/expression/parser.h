@@ -12,7 +12,7 @@ namespace backlight {
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::vector<std::string>& variables, Graph& graph)
+  Parser(std::string_view text, const VariableNames& variables, Graph& graph)
       : text_(text), variables_(variables), graph_(graph) {}
 
   /// The node of the whole text. Throws ExpressionError.
@@ -51,7 +51,7 @@ class Parser {
   [[nodiscard]] std::string missing_operator_hint() const;
 
   std::string_view text_;
-  const std::vector<std::string>& variables_;
+  const VariableNames& variables_;
   Graph& graph_;
   Token token_;     // the next one, not yet consumed
   Token previous_;  // the last one consumed

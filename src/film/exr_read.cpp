@@ -14,8 +14,10 @@
 #include <system_error>
 #include <utility>
 
+#include "backlight/base/files.h"
 #include "backlight/film/exr.h"
 #include "exr_header.h"
+#include "exr_plausible.h"
 
 namespace backlight {
 namespace {
@@ -27,10 +29,8 @@ class FileStream : public Imf::IStream {
 
   explicit FileStream(const std::filesystem::path& path)
       : Imf::IStream(path.c_str()), file_(path, std::ios::binary) {
-    std::error_code error;
-    const bool folder = std::filesystem::is_directory(path, error);
-    if (!file_ || folder) {
-      throw std::system_error(folder ? EISDIR : errno, std::generic_category());
+    if (!file_) {
+      throw std::system_error(errno, std::generic_category());
     }
     file_.seekg(0, std::ios::end);
     size_ = static_cast<std::uint64_t>(file_.tellg());
@@ -69,8 +69,9 @@ std::vector<ExrInfo> read_headers(FileStream& stream) {
   if (Imf::getVersion(version) != Imf::EXR_VERSION || !Imf::supportsFlags(Imf::getFlags(version))) {
     throw std::runtime_error("it is of an unknown version of OpenEXR");
   }
-  std::vector<ExrInfo> parts;
   const bool several = Imf::isMultiPart(version);
+  check_attributes(stream, stream.size(), several);
+  std::vector<ExrInfo> parts;
   do {
     Imf::Header header;
     header.readFrom(stream, version);
@@ -79,7 +80,10 @@ std::vector<ExrInfo> read_headers(FileStream& stream) {
   } while (several);
   if (parts.empty()) throw std::runtime_error("it has no part");
   if (!several && Imf::isNonImage(version)) parts.front().unreadable = "it is a deep picture";
-  for (ExrInfo& info : parts) info.parts = parts.size();
+  for (ExrInfo& info : parts) {
+    info.parts = parts.size();
+    if (info.unreadable.empty()) check_size(info.layout, stream.size());
+  }
   return parts;
 }
 
@@ -124,6 +128,7 @@ void check_chunks(FileStream& stream, const ExrInfo& info) {
 template <typename T>
 Result<T> without_exceptions(const std::filesystem::path& path, const std::function<Result<T>()>& read) {
   const std::string what = "cannot read " + path.string() + ": ";
+  if (const Result<void> regular = require_regular_file(path); !regular.ok()) return regular.failure();
   try {
     return read();
   } catch (const std::bad_alloc&) {
@@ -226,7 +231,10 @@ Result<Image> read_pixels(ExrReader& reader) {
   const auto width = static_cast<std::size_t>(data.width());
   std::vector<std::vector<float>> planes(layout.channels.size());
   for (std::vector<float>& plane : planes) plane.reserve(width * static_cast<std::size_t>(data.height()));
-  constexpr int band_rows = 64;
+  // Of a damaged file's width, a band is not much memory either.
+  constexpr std::size_t band_values = std::size_t{1} << 24U;
+  const int band_rows = static_cast<int>(
+      std::clamp<std::size_t>(band_values / (width * std::max<std::size_t>(planes.size(), 1)), 1, 64));
   for (int row = data.y0; row < data.y1; row += band_rows) {
     const int count = std::min(data.y1 - row, band_rows);
     std::vector<std::span<float>> band;

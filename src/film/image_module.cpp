@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "backlight/base/files.h"
+
 namespace backlight {
 namespace {
 
@@ -59,17 +61,9 @@ Result<ImageModule> ImageModule::load() {
 }
 
 Result<StoredImage> ImageModule::read(const fs::path& path) const {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  const std::string what = "cannot read " + path.string() + ": ";
   // OpenImageIO explains a missing file by the formats that it might have had.
-  if (!fs::exists(status)) {
-    return Failure{what +
-                   (error ? error : std::make_error_code(std::errc::no_such_file_or_directory)).message()};
-  }
-  if (!fs::is_regular_file(status)) {
-    return Failure{what + "not a file"};
-  }
+  if (const Result<void> regular = require_regular_file(path); !regular.ok()) return regular.failure();
+  const std::string what = "cannot read " + path.string() + ": ";
   BacklightOiioImage image{};
   std::array<char, 512> text{};
   if (load_(path.c_str(), &image, text.data(), text.size()) != 0) {

@@ -8,6 +8,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -63,6 +64,29 @@ int guarded(char* error, std::size_t error_size, const Work& work) {
   throw std::runtime_error(line.empty() ? otherwise : line);
 }
 
+/// Of pixels that a texture may have: 3 GB as float numbers.
+constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+
+/// No format packs more pixels into a byte, JPEG not even so many: what announces more is damaged, and not
+/// worth the memory.
+constexpr std::int64_t most_pixels_of_byte = 4096;
+constexpr std::int64_t most_pixels_of_jpeg_byte = 512;
+
+void check_size(const char* path, const OIIO::ImageInput& input) {
+  const OIIO::ImageSpec& spec = input.spec();
+  const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
+  const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels";
+  if (pixels > most_pixels) {
+    throw std::runtime_error("it has " + size + ", and a texture has at most " + std::to_string(most_pixels) +
+                             " pixels");
+  }
+  const auto bytes = static_cast<std::int64_t>(OIIO::Filesystem::file_size(path));
+  const bool jpeg = std::string_view(input.format_name()) == "jpeg";
+  if (pixels / (jpeg ? most_pixels_of_jpeg_byte : most_pixels_of_byte) > bytes) {
+    throw std::runtime_error("it says that it has " + size + ", and has " + std::to_string(bytes) + " bytes");
+  }
+}
+
 /// Where a file has its colour: which of its pictures, the first of the channels, and their number, 1 or 3.
 struct ColourPlace {
   int picture = 0;
@@ -99,17 +123,17 @@ ColourPlace find_colour(OIIO::ImageInput& input) {
 }
 
 /// Turns the picture as a camera's Orientation tag says.
-std::vector<float> upright(OIIO::ImageSpec& spec, std::vector<float> pixels, int channels) {
+Memory<float> upright(OIIO::ImageSpec& spec, Memory<float> pixels, int channels) {
   const int orientation = spec.get_int_attribute("Orientation", 1);
   if (orientation <= 1 || orientation > 8) {
     return pixels;
   }
   OIIO::ImageSpec plain(spec.width, spec.height, channels, OIIO::TypeDesc::FLOAT);
   plain.attribute("Orientation", orientation);
-  const OIIO::ImageBuf turned = OIIO::ImageBufAlgo::reorient(OIIO::ImageBuf(plain, pixels.data()));
+  const OIIO::ImageBuf turned = OIIO::ImageBufAlgo::reorient(OIIO::ImageBuf(plain, pixels.get()));
   spec.width = turned.spec().width;
   spec.height = turned.spec().height;
-  if (!turned.get_pixels(turned.roi(), OIIO::TypeDesc::FLOAT, pixels.data())) {
+  if (!turned.get_pixels(turned.roi(), OIIO::TypeDesc::FLOAT, pixels.get())) {
     raise(turned.geterror(), "the picture cannot be turned upright");
   }
   return pixels;
@@ -127,15 +151,17 @@ void load(const char* path, BacklightOiioImage& image) {
   if (spec.depth > 1 || spec.deep || spec.width <= 0 || spec.height <= 0) {
     throw std::runtime_error("not a flat picture");
   }
+  check_size(path, *input);
   if (spec.full_width != spec.width || spec.full_height != spec.height || spec.full_x != spec.x ||
       spec.full_y != spec.y) {
     throw std::runtime_error("only a part of the picture is in the file (its data window is a crop)");
   }
   const std::size_t count = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  std::vector<float> stored(count * static_cast<std::size_t>(channels));
+  // Not touched before it is decoded: a damaged file may end long before.
+  Memory<float> stored = allocate<float>(count * static_cast<std::size_t>(channels));
   // A JPEG that is cut short is filled up with grey, and read "successfully" with an error left to be
   // fetched.
-  if (!input->read_image(picture, 0, first, first + channels, OIIO::TypeDesc::FLOAT, stored.data()) ||
+  if (!input->read_image(picture, 0, first, first + channels, OIIO::TypeDesc::FLOAT, stored.get()) ||
       input->has_error()) {
     raise(input->geterror(), "the file is damaged or cut short");
   }

@@ -21,24 +21,33 @@ void NumberCheck::number(Node& node, const Key& key) {
     node.value = Invalid{};
     return;
   }
-  parse(node, description_.variables, 0);
+  parse(node, variables_, 0);
 }
 
 void NumberCheck::formula(Node& node) {
-  parse(node, formula_variables(description_), formula_coordinates);
+  if (!of_surfaces_) of_surfaces_.emplace(formula_variables(description_));
+  parse(node, *of_surfaces_, formula_coordinates);
 }
 
 /// Makes the node's text an expression of `variables`, of which those from `first` on are the description's.
-void NumberCheck::parse(Node& node, const std::vector<std::string>& variables, std::size_t first) {
+void NumberCheck::parse(Node& node, const VariableNames& variables, std::size_t first) {
+  // To look for the nearest name takes as long as there are names.
+  constexpr std::size_t most_wrong = 200;
+  if (wrong_expressions_ > most_wrong) {
+    node.value = Invalid{};
+    return;
+  }
   auto parsed = Expression::parse(*node.text(), variables);
   if (const auto* wrong = std::get_if<ExpressionError>(&parsed)) {
     expression_error(node, *wrong);
+    if (++wrong_expressions_ > most_wrong)
+      error(node.place, "too many mistakes: the expressions after this one are not looked at");
     node.value = Invalid{};
     return;
   }
   Expression expression = std::get<Expression>(std::move(parsed));
-  for (std::size_t i = 0; i < used_.size(); ++i) {
-    if (expression.uses(first + i)) used_[i] = true;
+  for (const std::size_t i : expression.used_variables()) {
+    if (i >= first) used_[i - first] = true;
   }
   node.value = std::move(expression);
 }

@@ -1,6 +1,7 @@
 // The check of numbers and arrays of them. Strings become expressions here.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,10 @@ class NumberCheck {
  public:
   /// The description's variables are those of every expression.
   NumberCheck(const Description& description, Diagnostics& diagnostics)
-      : description_(description), diagnostics_(diagnostics), used_(description.variables.size(), false) {}
+      : description_(description),
+        diagnostics_(diagnostics),
+        variables_(description.variables),
+        used_(description.variables.size(), false) {}
 
   void number(Node& node, const Key& key);
   void numbers(Node& node, const Key& key, const ValueForm& form);
@@ -28,13 +32,16 @@ class NumberCheck {
   [[nodiscard]] const std::vector<bool>& used() const { return used_; }
 
  private:
-  void parse(Node& node, const std::vector<std::string>& variables, std::size_t first);
+  void parse(Node& node, const VariableNames& variables, std::size_t first);
   void error(const Place& place, std::string message, std::string hint = {});
   void expression_error(const Node& node, const ExpressionError& wrong);
 
   const Description& description_;
   Diagnostics& diagnostics_;
+  VariableNames variables_;
+  std::optional<VariableNames> of_surfaces_;  // made for the first formula
   std::vector<bool> used_;
+  std::size_t wrong_expressions_ = 0;
 };
 
 }  // namespace backlight

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compile_parts.h"
+#include "time_dependence.h"
 #include "words.h"
 
 namespace backlight {
@@ -15,11 +16,9 @@ namespace {
 
 // Parameters in the order in which they use each other.
 void evaluate_parameters(ImageValues& values) {
-  const Entry* parameters = find(values.description.root, "params");
+  const std::vector<const Entry*> parameters = values.description.parameters();
   for (const std::size_t i : values.description.parameter_order) {
-    const Entry* entry = find(parameters->node, values.description.variables[i]);
-    if (entry == nullptr) continue;
-    const Node& node = entry->node;
+    const Node& node = parameters[i]->node;
     if (const auto* number = std::get_if<double>(&node.value)) values.variables[i] = *number;
     if (const auto* expression = std::get_if<Expression>(&node.value)) {
       values.variables[i] = expression->evaluate(values.variables);
@@ -28,10 +27,10 @@ void evaluate_parameters(ImageValues& values) {
 }
 
 void check_parameters(ImageValues& values) {
-  const Entry* parameters = find(values.description.root, "params");
+  const std::vector<const Entry*> parameters = values.description.parameters();
   for (const std::size_t i : values.description.parameter_order) {
-    const Entry* entry = find(parameters->node, values.description.variables[i]);
-    if (entry == nullptr || std::isfinite(values.variables[i])) continue;
+    const Entry* entry = parameters[i];
+    if (std::isfinite(values.variables[i])) continue;
     const auto* expression = std::get_if<Expression>(&entry->node.value);
     const bool by_another = expression != nullptr && values.uses_wrong_variable(*expression);
     if (!by_another)
@@ -39,7 +38,7 @@ void check_parameters(ImageValues& values) {
                    "the parameter '" + entry->name + "' is " + number_text(values.variables[i]) +
                        " at t = " + number_text(values.variables[0]) + ", which is not a finite number");
     values.variables[i] = 0.0;
-    values.wrong_variables.push_back(i);
+    values.wrong_variables.insert(i);
   }
 }
 
@@ -47,6 +46,12 @@ ImageValues variables_without_time(const Description& description, Diagnostics& 
   ImageValues values{description, std::vector<double>(description.variables.size(), 0.0), diagnostics};
   values.variables[0] = values.variables[1] = std::numeric_limits<double>::quiet_NaN();
   evaluate_parameters(values);
+  const TimeDependence dependence(description);
+  const std::vector<const Entry*> parameters = description.parameters();
+  for (const std::size_t i : description.parameter_order) {  // reported at the image's own time
+    if (!std::isfinite(values.variables[i]) && !dependence.changes(parameters[i]->node))
+      values.wrong_variables.insert(i);
+  }
   return values;
 }
 
@@ -85,6 +90,10 @@ void set_time(ImageValues& values, const ImageRequest& request, const Animation&
   }
   values.variables[0] = t;
   values.variables[1] = frame;
+  if (!animation.written || request.time || std::abs(t) <= greatest_magnitude) return;
+  const TableView table = TableView::top(values, "animation");
+  table.error("fps", "frame " + number_text(frame) + " is at t = " + number_text(t) +
+                         " s, but times must be at most " + number_text(greatest_magnitude) + " s in size");
 }
 
 Effects read_effects(const TableView& table, Effects effects) {
@@ -136,8 +145,9 @@ void check_request(const ImageRequest& request, Diagnostics& diagnostics) {
   if (request.tolerance) check("tolerance", *request.tolerance);
   if (request.wavelengths) check("wavelengths", *request.wavelengths);
   if (request.aovs) check_aovs(*request.aovs, diagnostics);
-  if (request.time && !std::isfinite(*request.time))
-    diagnostics.error({}, "the time must be a finite number");
+  if (request.time && !(std::abs(*request.time) <= greatest_magnitude))
+    diagnostics.error({},
+                      "the time must be a number, at most " + number_text(greatest_magnitude) + " in size");
 }
 
 // What is given by number wins over the tolerance, and the command line over the file.
@@ -191,10 +201,9 @@ std::vector<Dual> rates_of(const ImageValues& values, double frames_per_second) 
   for (std::size_t i = 0; i < rates.size(); ++i) rates[i].value = values.variables[i];
   rates[0].derivative = 1.0;
   rates[1].derivative = frames_per_second;
-  const Entry* parameters = find(values.description.root, "params");
+  const std::vector<const Entry*> parameters = values.description.parameters();
   for (const std::size_t i : values.description.parameter_order) {
-    const Entry* entry = find(parameters->node, values.description.variables[i]);
-    const auto* expression = entry != nullptr ? std::get_if<Expression>(&entry->node.value) : nullptr;
+    const auto* expression = std::get_if<Expression>(&parameters[i]->node.value);
     if (expression != nullptr)
       rates[i].derivative = expression->evaluate(std::span<const Dual>(rates)).derivative;
   }

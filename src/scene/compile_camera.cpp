@@ -127,6 +127,12 @@ void compile_camera(Compilation& c) {
     const InertialFrame frame = rest_frame(c, table, position);
     expose(table, frame, position, c.scene);
   }
+  if (!can_be_computed_with({c.scene.camera.celerity, c.scene.camera.event})) {
+    c.values.error(table.place(),
+                   "the camera is too far, too late or too fast: in the world, its place, its time "
+                   "and its celerity must be at most " +
+                       number_text(greatest_composed) + " in size");
+  }
   read_lens(table, c.scene.film, c.scene.camera.lens);
   if (table.has_valid("stereo")) {
     const Projection projection = c.scene.camera.lens.projection;

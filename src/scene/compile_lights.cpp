@@ -33,12 +33,12 @@ Colour read_colour(const TableView& table, ResourceCache& cache) {
 void read_strength(const TableView& table, std::string_view key, Light& light) {
   const Node* written = table.node_of(key);
   const auto* expression = written != nullptr ? std::get_if<Expression>(&written->value) : nullptr;
-  light.variables = table.values().variables;
   if (expression == nullptr || !expression->uses(0)) {
     light.strength = table.number(key);
     return;
   }
   light.flickers = true;
+  light.variables = table.values().variables;
   light.strength_of_time = *expression;
   light.strength = expression->evaluate(light.variables);
 }
@@ -57,7 +57,7 @@ void compile_light(Compilation& c, const Node& node) {
   if (type == "distant") {
     light.kind = LightKind::distant;
     if (table.has_valid("direction")) {
-      const Vec3 direction = table.vector("direction");
+      const Vec3 direction = of_size_one(table.vector("direction"));
       const double length = glm::length(direction);
       if (length == 0.0) table.error("direction", "'direction' is zero: it points nowhere");
       light.direction = direction / length;

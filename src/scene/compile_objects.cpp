@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "backlight/base/memory.h"
 #include "compile_shapes.h"
 
 namespace backlight {
@@ -12,10 +13,18 @@ namespace {
 
 constexpr double most_copies = 1e7;
 
+// In an outline, so many copies of a lattice stand for all: more than enough for every way of searching.
+constexpr std::size_t most_outlined = 10'000;
+
 // How often, and how far apart.
 struct Lattice {
   std::array<int, 3> count{1, 1, 1};
   Vec3 step{0.0};
+
+  [[nodiscard]] std::size_t copies() const {
+    return static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]) *
+           static_cast<std::size_t>(count[2]);
+  }
 };
 
 Lattice read_lattice(const TableView& object) {
@@ -38,13 +47,19 @@ Lattice read_lattice(const TableView& object) {
 struct FrameBuilder {
   SurfaceSet surfaces;
   std::vector<int> object_of_surface;
+  std::vector<CopiesLeftOut> left_out;
 
   // One object with its copies, x counting fastest.
   void add_copies(int object, const Shape& shape, const Placement& first, const Lattice& lattice,
-                  const Vec3& rotate) {
+                  const Vec3& rotate, bool outline) {
+    const std::size_t total = lattice.copies();
+    const std::size_t made = outline ? std::min(total, most_outlined) : total;
+    std::size_t done = 0;
+    if (made < total) left_out.push_back({static_cast<int>(surfaces.size()), total - made});
     for (int k = 0; k < lattice.count[2]; ++k)
       for (int j = 0; j < lattice.count[1]; ++j)
         for (int i = 0; i < lattice.count[0]; ++i) {
+          if (done++ == made) return;
           const Vec3 offset = Vec3{double(i), double(j), double(k)} * lattice.step;
           surfaces.add(shape, Placement(first.position() + offset, rotate, first.scale()));
           object_of_surface.push_back(object);
@@ -174,7 +189,28 @@ class ObjectCompiler {
     }
     std::unique_ptr<FrameBuilder>& builder = frames_[frame_of_group_[group]].builder;
     if (!builder) builder = std::make_unique<FrameBuilder>();
-    builder->add_copies(index, compiled->shape, placement, lattice, rotate);
+    if (!leave_room(keys, lattice)) return;
+    const auto first = static_cast<int>(builder->surfaces.size());
+    builder->add_copies(index, compiled->shape, placement, lattice, rotate, c_.request.outline);
+    if (!is_infinite(compiled->shape) && !(builder->surfaces.bounds(first).radius <= greatest_composed)) {
+      keys.error("shape", "it is larger than " + number_text(greatest_composed) + ", all scales together");
+    }
+  }
+
+  // Surfaces are counted before they take memory. What is only told of need not fit here.
+  bool leave_room(const TableView& keys, const Lattice& lattice) {
+    constexpr std::size_t many = 100'000;
+    if (lattice.copies() < many) return true;
+    const auto left = memory_left();
+    const std::uint64_t needed = lattice.copies() * bytes_of_surface;
+    if (!left || needed <= left->bytes) return true;
+    const std::string message = std::to_string(lattice.copies()) + " copies take " + memory_words(needed) +
+                                " of memory, and " + memory_words(left->bytes) + " are " + left->where;
+    if (!c_.request.outline) keys.error("repeat", message);
+    if (c_.request.outline)
+      c_.values.diagnostics.warning(c_.values.description.span(keys.place("repeat")), message,
+                                    "to render it here is an error");
+    return c_.request.outline;
   }
 
   void finish_frames() {
@@ -186,18 +222,21 @@ class ObjectCompiler {
       if (frame.reused) {
         into.surfaces = first.surfaces;
         into.object_of_surface = first.object_of_surface;
+        into.left_out = first.left_out;
         c_.scene.counts.surfaces_reused += first.object_of_surface.size();
         continue;
       }
       frame.builder->surfaces.build();
       into.surfaces = std::make_shared<const SurfaceSet>(std::move(frame.builder->surfaces));
       into.object_of_surface = std::move(frame.builder->object_of_surface);
+      into.left_out = std::move(frame.builder->left_out);
       frame.builder.reset();
       c_.scene.counts.surfaces_made += into.object_of_surface.size();
       if (c_.parts.kept && can_be_reused(frame)) {
         first.others.assign(frame.groups.begin() + 1, frame.groups.end());
         first.surfaces = into.surfaces;
         first.object_of_surface = into.object_of_surface;
+        first.left_out = into.left_out;
       }
     }
   }

@@ -40,6 +40,7 @@ struct ObjectGroup {
   std::vector<int> others;
   std::shared_ptr<const SurfaceSet> surfaces;
   SharedVector<int> object_of_surface;
+  std::vector<CopiesLeftOut> left_out;
 };
 
 struct ObjectPlan {

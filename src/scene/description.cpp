@@ -23,6 +23,17 @@ SourceSpan Description::span(const Place& place) const {
           static_cast<int>(place.length)};
 }
 
+std::vector<const Entry*> Description::parameters() const {
+  std::vector<const Entry*> entries(variables.size(), nullptr);
+  const Entry* table = find(root, "params");
+  if (table == nullptr || table->node.table() == nullptr) return entries;
+  std::size_t next = 2;  // they are in the order of the table, which may have unusable ones among them
+  for (const Entry& entry : *table->node.table()) {
+    if (next < variables.size() && entry.name == variables[next]) entries[next++] = &entry;
+  }
+  return entries;
+}
+
 void Description::forget_contents() {
   NodeTable kept;  // by copies, which are not in `memory`
   for (const Entry& entry : *root.table()) {

@@ -69,7 +69,7 @@ std::string frames_words(const Scene& scene) {
   std::string text;
   std::size_t listed_frames = 0;
   for (const SceneFrame& frame : scene.frames) {
-    const std::size_t surfaces = frame.object_of_surface.size();
+    const std::size_t surfaces = frame.surface_count();
     if (surfaces == 0) continue;
     if (++listed_frames > most_frames_listed) continue;
     std::string name = frame.name;

@@ -23,14 +23,20 @@ inline Range whole(double least, double greatest) {
   return {.least = least, .greatest = greatest, .whole = true};
 }
 
+/// What is measured in lengths and times has a greatest size.
+inline Range limited(std::string_view unit, Range range) {
+  if (unit == "s" || unit.starts_with("length")) range.magnitude = greatest_magnitude;
+  return range;
+}
+
 inline Key number(std::string_view name, DefaultValue value, std::string_view unit, std::string_view meaning,
                   Range range = {}) {
-  return {name, {ValueKind::number}, std::move(value), unit, meaning, range, {}};
+  return {name, {ValueKind::number}, std::move(value), unit, meaning, limited(unit, range), {}};
 }
 
 inline Key numbers(std::string_view name, int count, DefaultValue value, std::string_view unit,
                    std::string_view meaning, Range range = {}) {
-  return {name, {{ValueKind::numbers, count}}, std::move(value), unit, meaning, range, {}};
+  return {name, {{ValueKind::numbers, count}}, std::move(value), unit, meaning, limited(unit, range), {}};
 }
 
 inline Key boolean(std::string_view name, DefaultValue value, std::string_view meaning) {
@@ -47,7 +53,7 @@ inline Key choice(std::string_view name, DefaultValue value, std::vector<std::st
 }
 
 inline Key points(std::string_view name, int count, std::string_view unit, std::string_view meaning) {
-  return {name, {{ValueKind::points, count}}, Nothing{}, unit, meaning, {}, {}};
+  return {name, {{ValueKind::points, count}}, Nothing{}, unit, meaning, limited(unit, {}), {}};
 }
 
 /// A key whose value is a table, a reference, a path, or one of several of them.

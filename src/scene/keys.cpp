@@ -12,7 +12,16 @@ bool Range::contains(double value) const {
   if (!std::isfinite(value)) return false;
   if (value < least || (above_least && value == least)) return false;
   if (value > greatest || (below_greatest && value == greatest)) return false;
+  if (std::abs(value) > magnitude || (is_positive() && value < 1.0 / magnitude)) return false;
   return !whole || value == std::floor(value);
+}
+
+std::string Range::complaint(double value) const {
+  Range without = *this;
+  without.magnitude = std::numeric_limits<double>::infinity();
+  if (!without.contains(value)) return "must be " + words();
+  return std::abs(value) > 1.0 ? "must be at most " + number_text(magnitude) + " in size"
+                               : "must be at least " + number_text(1.0 / magnitude);
 }
 
 std::string Range::words() const {

@@ -101,7 +101,7 @@ void add_shape_keys(std::vector<Key>& keys, std::string_view centre, std::string
                   1.0,
                   "",
                   "Stretched along its own axes before it is turned: a number or `[x, y, z]`, not zero.",
-                  {},
+                  {.magnitude = greatest_magnitude},
                   {}});
   keys.push_back(structured(
       "material", {{ValueKind::reference, 0, "material"}, {ValueKind::table, 0, "material"}}, material));
@@ -199,7 +199,7 @@ std::vector<KeyTable> shapes() {
         "c0 x² + c1 y² + c2 z² + c3 xy + c4 xz + c5 yz + c6 x + c7 y + c8 z + c9 = 0, infinite. Texture: as "
         "the "
         "plane's.",
-        {numbers("coefficients", 10, Required{}, "", "c0 to c9.")});
+        {numbers("coefficients", 10, Required{}, "", "c0 to c9.", {.magnitude = greatest_magnitude})});
   shape(
       "object.implicit",
       "Where a formula is zero, within bounds: f(x, y, z, t) = 0, solid where f < 0. Every root along a ray "

@@ -11,9 +11,39 @@ namespace {
 
 constexpr double default_grey = 0.8;
 
+// In nm. What is plausible reaches from soft X-rays to millimetre waves, which great speeds may bring into
+// view.
+constexpr double shortest_plausible = 10.0;
+constexpr double longest_plausible = 1e6;
+constexpr double shortest_visible = 360.0;
+constexpr double longest_visible = 830.0;
+
 // Finding the exact spectrum of a colour takes about a millisecond; scenes of more colours than this take all
 // of them from the table, whose colours differ by less than can be seen (docs/colour.md).
 constexpr std::size_t most_exact_spectra = 200;
+
+// A table that reaches nowhere near visible light is in another unit, or does not do what it seems to: at
+// rest its end value is all there is of it. False if that is an error.
+bool are_nanometres(const TableView& table, const SpectrumTable& points) {
+  if (points.wavelengths.empty() || points.values.empty()) return true;  // reported by who makes the spectrum
+  const double least = *std::ranges::min_element(points.wavelengths);
+  const double greatest = *std::ranges::max_element(points.wavelengths);
+  const std::string reach = "from " + number_text(least) + " to " + number_text(greatest);
+  if (greatest < shortest_plausible || least > longest_plausible) {
+    table.error("spectrum", "its wavelengths go " + reach + ", which cannot be nanometres",
+                "visible light is from 360 to 830 nm; multiply metres by 1e9, micrometres by 1000");
+    return false;
+  }
+  if (greatest < shortest_visible || least > longest_visible) {
+    const double kept = greatest < shortest_visible ? points.values.back() : points.values.front();
+    table.values().diagnostics.warning(
+        table.values().description.span(table.place("spectrum")),
+        "none of its wavelengths, " + reach + " nm, is visible: at rest it is " + number_text(kept) +
+            " throughout",
+        "visible light is from 360 to 830 nm; multiply metres by 1e9, micrometres by 1000");
+  }
+  return true;
+}
 
 Colour grey(double value) {
   return {Spectrum::constant(value), LinearRgb{value}};
@@ -57,6 +87,7 @@ std::optional<Spectrum> read_spectrum_key(const TableView& table, ResourceCache&
     table.error("spectrum", "a reflectance must be at most " + number_text(greatest));
     return std::nullopt;
   }
+  if (!are_nanometres(table, points)) return std::nullopt;
   SpectrumOrError made = Spectrum::tabulated(std::move(points.wavelengths), std::move(points.values));
   if (!made.spectrum) table.error("spectrum", made.error);
   return made.spectrum;

@@ -43,6 +43,13 @@ Extended size_of(const TableView& table, std::string_view key) {
 
 }  // namespace
 
+bool can_be_computed_with(const InertialFrame& frame) {
+  const auto is_small = [](const Extended& number) { return std::abs(double(number)) <= greatest_composed; };
+  bool small = is_small(frame.origin.t);
+  for (int i = 0; i < 3; ++i) small = small && is_small(frame.origin.x[i]) && is_small(frame.celerity[i]);
+  return small;
+}
+
 bool has_motion(const TableView& table) {
   for (const std::string_view key : motion_keys) {
     if (table.has(key)) return true;
@@ -65,15 +72,11 @@ ExtendedVec3 read_celerity(const TableView& table, double c) {
     return {};
   }
   if (!table.has_valid("along")) return {};
-  ExtendedVec3 along(table.vector("along"));
-  // Scaled by a power of two, so that no length of `along` over- or underflows when squared.
-  const Vec3 rounded = glm::abs(along.rounded());
-  const double largest = std::max({rounded.x, rounded.y, rounded.z});
-  if (largest == 0.0) {
+  const ExtendedVec3 along(of_size_one(table.vector("along")));
+  if (along == ExtendedVec3{}) {
     table.error("along", "'along' is zero: it has no direction");
     return {};
   }
-  along = Extended(std::ldexp(1.0, std::min(1000, -std::ilogb(largest)))) * along;
   if (size.hi == 0.0) return {};
   return (size / magnitude(along)) * along;
 }
@@ -97,23 +100,37 @@ Frames::Frames(ImageValues& values, double c, std::vector<SceneFrame>& scene_fra
   index_of(InertialFrame{}, "world");
   const Entry* frames = find(values.description.root, "frame");
   if (frames == nullptr || frames->node.table() == nullptr) return;
-  for (const Entry& entry : *frames->node.table()) define(entry.name);
+  std::unordered_map<std::string, const Node*> written;
+  for (const Entry& entry : *frames->node.table()) written.emplace(entry.name, &entry.node);
+  for (const Entry& entry : *frames->node.table()) {
+    // Outermost first. The reader has seen to it that `within` goes round in no circle.
+    std::vector<std::pair<std::string, const Node*>> way;
+    std::string name = entry.name;
+    for (auto next = written.find(name); next != written.end() && named_.count(name) == 0;
+         next = written.find(name)) {
+      way.emplace_back(name, next->second);
+      name = TableView(values_, next->second, *find_table("frame")).text("within");
+    }
+    for (auto step = way.rbegin(); step != way.rend(); ++step) define(step->first, *step->second);
+  }
 }
 
-const InertialFrame& Frames::define(const std::string& name) {
-  if (const auto known = named_.find(name); known != named_.end()) return known->second;
-  const Entry* frames = find(values_.description.root, "frame");
-  const Entry* entry = frames != nullptr ? find(frames->node, name) : nullptr;
-  if (entry == nullptr) return named_.at("world");
-  const TableView table(values_, &entry->node, *find_table("frame"));
+void Frames::define(const std::string& name, const Node& written) {
+  const TableView table(values_, &written, *find_table("frame"));
   InertialFrame frame;
   frame.celerity = read_celerity(table, c_);
   frame.origin.x = ExtendedVec3(table.vector("origin"));
   frame.origin.t = Extended(c_) * Extended(table.number("origin_time"));
-  // The reader has seen to it that `within` goes round in no circle.
   const std::string outer = table.text("within");
-  if (outer != "world") frame = within(define(outer), frame);
-  return named_.emplace(name, frame).first->second;
+  if (outer != "world") frame = within(named(outer), frame);
+  if (!can_be_computed_with(frame)) {
+    values_.error(table.place(), "the frame '" + name +
+                                     "' is too far or too fast in the world: there, its origin and its "
+                                     "celerity must be at most " +
+                                     number_text(greatest_composed) + " in size");
+    frame = {};
+  }
+  named_.emplace(name, frame);
 }
 
 const InertialFrame& Frames::named(const std::string& name) const {

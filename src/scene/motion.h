@@ -11,6 +11,12 @@
 
 namespace backlight {
 
+/// What numbers within their own limits come to when they are composed: more leaves no room for squares.
+inline constexpr double greatest_composed = 1e130;
+
+/// Whether no coordinate of the frame's origin and no component of its celerity is larger in size.
+bool can_be_computed_with(const InertialFrame& frame);
+
 /// Whether a table says how a thing moves.
 bool has_motion(const TableView& table);
 
@@ -53,7 +59,7 @@ class Frames {
   int index_of(const InertialFrame& frame, const std::string& name);
 
  private:
-  const InertialFrame& define(const std::string& name);
+  void define(const std::string& name, const Node& written);
   ExtendedVec3 own_celerity(const TableView& thing);
 
   ImageValues& values_;

@@ -92,21 +92,25 @@ void choose_model(const Scene& scene, Needs& needs) {
   }
 }
 
-void count_roots(const SceneFrame& frame, std::vector<RootSearch>& roots) {
-  for (std::size_t i = 0; i < frame.surfaces->size(); ++i) {
-    const Shape& shape = frame.surfaces->shape(static_cast<int>(i));
-    // Elsewhere the kind decides: no words are made for each of 100,000 spheres.
-    const bool differs_within_kind = shape.formula != nullptr || shape.solid != nullptr;
-    const auto is_like = [&](const RootSearch& search) {
-      return search.shape == shape.kind && (!differs_within_kind || search.how == root_finding(shape));
-    };
-    const auto found = std::ranges::find_if(roots, is_like);
-    if (found != roots.end()) {
-      ++found->surfaces;
-    } else {
-      roots.push_back({shape.kind, root_finding(shape), 1});
-    }
+void count_roots(const Shape& shape, std::size_t surfaces, std::vector<RootSearch>& roots) {
+  // Elsewhere the kind decides: no words are made for each of 100,000 spheres.
+  const bool differs_within_kind = shape.formula != nullptr || shape.solid != nullptr;
+  const auto is_like = [&](const RootSearch& search) {
+    return search.shape == shape.kind && (!differs_within_kind || search.how == root_finding(shape));
+  };
+  const auto found = std::ranges::find_if(roots, is_like);
+  if (found != roots.end()) {
+    found->surfaces += surfaces;
+  } else {
+    roots.push_back({shape.kind, root_finding(shape), surfaces});
   }
+}
+
+void count_roots(const SceneFrame& frame, std::vector<RootSearch>& roots) {
+  for (std::size_t i = 0; i < frame.surfaces->size(); ++i)
+    count_roots(frame.surfaces->shape(static_cast<int>(i)), 1, roots);
+  for (const CopiesLeftOut& left : frame.left_out)
+    count_roots(frame.surfaces->shape(left.surface), left.copies, roots);
 }
 
 std::string plural_of(const RootSearch& search) {
@@ -134,7 +138,7 @@ Needs needs_of(const Scene& scene) {
     const RelativeMotion motion = relative_motion(frame.motion.celerity, scene.camera.celerity);
     if (motion.speed > at_rest_celerity) ++needs.moving_frames;
     if (motion.gamma > robust_gamma) ++needs.extended_frames;
-    needs.surfaces += frame.object_of_surface.size();
+    needs.surfaces += frame.surface_count();
     count_roots(frame, needs.roots);
   }
   needs.objects = scene.objects.size();

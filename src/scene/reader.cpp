@@ -1,6 +1,8 @@
 #include "backlight/scene/reader.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -59,7 +61,10 @@ Diagnostics in_file_order(const Diagnostics& diagnostics, const Description& des
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Diagnostic& a, const Diagnostic& b) { return place(a) < place(b); });
   Diagnostics result;
+  std::set<std::tuple<decltype(place(sorted.front())), std::string>> told;
   for (Diagnostic& d : sorted) {
+    // What is read in two steps is found wrong in both.
+    if (d.span.line > 0 && !told.emplace(place(d), d.message).second) continue;
     auto add = d.severity == Severity::error ? &Diagnostics::error : &Diagnostics::warning;
     (result.*add)(std::move(d.span), std::move(d.message), std::move(d.hint));
   }

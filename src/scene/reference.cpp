@@ -26,6 +26,13 @@ A scene is a TOML 1.0 file. `backlight check SCENE.toml` says whether it is righ
 - Mistakes are errors, reported all together: unknown keys, wrong types, duplicate names, references to nothing,
   speeds of c and more, numbers that are not finite. A definition of the scene file itself that nothing uses gives a
   warning.
+- Lengths, times, `c`, accelerations, scales and the coefficients of a quadric are at most 1e50 in size; what must be
+  greater than 0 of them is at least 1e-50. Arrays and tables are nested at most 256 deep, frames and parameters as
+  deep as you like.
+- The file is UTF-8 text of at most 256 MiB, and so are the files that it names for tables of numbers. Those may have
+  commas, semicolons or tabs between the numbers, quotes about them, a line of names before them, and any ends of lines;
+  a decimal point is a point. Of a spectrum the wavelengths are in nm: a table that lies below 10 nm or above 1e6 nm is
+  an error, one without visible light a warning.
 - `-D path=value` on the command line replaces a value: `-D camera.fov=40`, `-D c=5`, `-D params.v=0.9`,
   `-D object.tram.velocity=[0.9,0,0]` by the object's name, `-D light.1.intensity=50` by its number in the file.
 

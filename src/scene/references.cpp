@@ -11,6 +11,20 @@
 namespace backlight {
 namespace {
 
+// "a -> b -> a"; the middle of a long way is left out.
+std::string arrows(const std::vector<std::string>& names) {
+  constexpr std::size_t most_shown = 20;
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names.size() > most_shown && i == most_shown / 2) {
+      i = names.size() - most_shown / 2;
+      text += " -> ... (" + std::to_string(names.size() - most_shown) + " more)";
+    }
+    text += (text.empty() ? "" : " -> ") + names[i];
+  }
+  return text;
+}
+
 class References {
  public:
   References(Description& description, Diagnostics& diagnostics)
@@ -102,38 +116,41 @@ class References {
     const std::string kind = key == "material" ? "material" : "frame";
     std::vector<std::string> names;
     if (kind == "frame") names.emplace_back("world");
-    for (const auto& definition : definitions) names.push_back(definition.first);
+    // To look for the nearest one takes as long as there are names.
+    constexpr std::size_t most_hints = 200;
+    if (diagnostics_.error_count() < most_hints) {
+      for (const auto& definition : definitions) names.push_back(definition.first);
+    }
     error(reference->node.place, "there is no " + kind + " '" + name + "'", did_you_mean(name, names));
     reference->node.value = Invalid{};
   }
 
+  // Along `within` from frame to frame, none of them twice. A circle is broken where it is reported, so that
+  // compiling never follows one.
   void check_frames() {
     for (auto& [name, entry] : frames_) refer(entry->node, "within", frames_);
-    std::set<std::string> reported;
-    for (auto& [name, entry] : frames_) {
-      std::vector<std::string> way{name};
-      for (std::string outer = outer_of(name); outer != "world"; outer = outer_of(outer)) {
-        const bool again = std::find(way.begin(), way.end(), outer) != way.end();
-        way.push_back(outer);
-        if (!again) continue;
-        if (outer == name && reported.insert(*std::min_element(way.begin(), way.end())).second) {
-          error(find(entry->node, "within")->node.place,
-                "frames lie within each other in a circle: " + arrows(way));
-        }
-        break;
+    std::map<std::string, std::size_t, std::less<>> seen;  // the walk that came by
+    std::size_t walk = 0;
+    for (const auto& [name, entry] : frames_) {
+      ++walk;
+      std::vector<std::string> way;
+      std::string next = name;
+      while (next != "world" && seen.emplace(next, walk).second) {
+        way.push_back(next);
+        next = outer_of(next);
       }
+      if (next == "world" || seen.at(next) != walk) continue;
+      way.erase(way.begin(), std::find(way.begin(), way.end(), next));
+      std::rotate(way.begin(), std::min_element(way.begin(), way.end()), way.end());
+      break_circle(std::move(way));
     }
-    for (auto& [name, entry] : frames_) break_circle(name, *entry);
   }
 
-  // So that compiling never follows a circle.
-  void break_circle(const std::string& name, Entry& entry) {
-    std::set<std::string> seen{name};
-    for (std::string outer = outer_of(name); outer != "world"; outer = outer_of(outer)) {
-      if (seen.insert(outer).second) continue;
-      find(entry.node, "within")->node.value = Invalid{};
-      return;
-    }
+  void break_circle(std::vector<std::string> way) {
+    Node& within = find(frames_.at(way.front())->node, "within")->node;
+    way.push_back(way.front());
+    error(within.place, "frames lie within each other in a circle: " + arrows(way));
+    within.value = Invalid{};
   }
 
   [[nodiscard]] std::string outer_of(const std::string& name) const {
@@ -141,12 +158,6 @@ class References {
     if (frame == frames_.end()) return "world";
     const Entry* within = find(frame->second->node, "within");
     return within == nullptr || within->node.text() == nullptr ? "world" : *within->node.text();
-  }
-
-  static std::string arrows(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : " -> ") + name;
-    return text;
   }
 
   void warn_of_unused(std::string_view table, const Definitions& definitions,
@@ -164,67 +175,81 @@ class References {
   std::set<std::string> used_frames_, used_materials_;
 };
 
-// Depth first over "uses"; a parameter met again on its own way closes a circle.
+// Depth first over "uses", without recursion: a chain may be as long as the file. A parameter met again on
+// its own way closes a circle.
 class ParameterOrder {
  public:
   ParameterOrder(Description& description, Diagnostics& diagnostics)
       : description_(description),
         diagnostics_(diagnostics),
+        parameters_(description.parameters()),
         state_(description.variables.size(), State::unseen) {}
 
   void find_order() {
-    for (std::size_t i = 2; i < state_.size(); ++i) visit(i);
+    for (std::size_t i = 2; i < state_.size(); ++i) {
+      if (state_[i] == State::unseen) open(i);
+      while (!way_.empty()) go_on();
+    }
   }
 
  private:
   enum class State { unseen, open, done };
 
-  [[nodiscard]] Entry* entry(std::size_t variable) {
-    Entry* parameters = find(description_.root, "params");
-    return parameters == nullptr ? nullptr : find(parameters->node, description_.variables[variable]);
-  }
+  // A parameter on the way, and those that it uses and that are still to be looked at.
+  struct Step {
+    std::size_t variable;
+    std::vector<std::size_t> uses;
+  };
 
-  void visit(std::size_t variable) {
-    if (state_[variable] != State::unseen) return;
+  void open(std::size_t variable) {
     state_[variable] = State::open;
-    way_.push_back(variable);
-    Entry* parameter = entry(variable);
-    // A copy: the parameter itself may be found invalid on the way.
-    const Node node = parameter != nullptr ? parameter->node : Node{};
-    if (const auto* expression = std::get_if<Expression>(&node.value)) {
-      for (std::size_t i = 2; i < state_.size(); ++i) {
-        if (!expression->uses(i)) continue;
-        if (state_[i] == State::open) report(i, *parameter);
-        visit(i);
-      }
-    }
-    way_.pop_back();
-    state_[variable] = State::done;
-    description_.parameter_order.push_back(variable);
+    way_.push_back({variable, {}});
+    const auto* expression = std::get_if<Expression>(&parameters_[variable]->node.value);
+    if (expression == nullptr) return;
+    way_.back().uses = expression->used_variables();
+    std::reverse(way_.back().uses.begin(), way_.back().uses.end());  // taken from the end
   }
 
-  void report(std::size_t closing, Entry& parameter) {
-    std::string names;
-    for (auto step = std::find(way_.begin(), way_.end(), closing); step != way_.end(); ++step) {
-      names += description_.variables[*step] + " -> ";
+  void go_on() {
+    Step& step = way_.back();
+    if (step.uses.empty()) {
+      state_[step.variable] = State::done;
+      description_.parameter_order.push_back(step.variable);
+      way_.pop_back();
+      return;
     }
+    const std::size_t used = step.uses.back();
+    step.uses.pop_back();
+    if (used < 2) return;  // t and frame
+    if (state_[used] == State::open) report(used, step.variable);
+    if (state_[used] == State::unseen) open(used);
+  }
+
+  void report(std::size_t closing, std::size_t variable) {
+    std::vector<std::string> names{description_.variables[closing]};
+    for (auto step = way_.rbegin(); step->variable != closing; ++step)
+      names.push_back(description_.variables[step->variable]);
+    names.push_back(description_.variables[closing]);
+    std::reverse(names.begin(), names.end());
+    Entry& parameter = const_cast<Entry&>(*parameters_[variable]);  // the description itself is not const
     diagnostics_.error(description_.span(parameter.node.place),
-                       "parameters use each other in a circle: " + names + description_.variables[closing]);
+                       "parameters use each other in a circle: " + arrows(names));
     parameter.node.value = Invalid{};
   }
 
   Description& description_;
   Diagnostics& diagnostics_;
+  std::vector<const Entry*> parameters_;
   std::vector<State> state_;
-  std::vector<std::size_t> way_;
+  std::vector<Step> way_;
 };
 
 void warn_of_unused_parameters(const Description& description, const std::vector<bool>& used,
                                Diagnostics& diagnostics) {
-  const Entry* parameters = find(description.root, "params");
-  for (std::size_t i = 2; parameters != nullptr && i < used.size(); ++i) {
-    const Entry* entry = find(parameters->node, description.variables[i]);
-    if (used[i] || entry == nullptr || entry->place.source != 0) continue;
+  const std::vector<const Entry*> parameters = description.parameters();
+  for (std::size_t i = 2; i < used.size(); ++i) {
+    const Entry* entry = parameters[i];
+    if (used[i] || entry->place.source != 0) continue;
     diagnostics.warning(description.span(entry->place), "the parameter '" + entry->name + "' is not used");
   }
 }

@@ -1,5 +1,6 @@
 #include "backlight/scene/resources.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <string_view>
 
 #include "backlight/base/files.h"
-#include "backlight/base/sha256.h"
 
 namespace backlight {
 namespace {
@@ -20,14 +20,28 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(space) - begin + 1);
 }
 
-std::vector<std::string_view> fields_of(std::string_view line) {
+// Without the quotes that some programs put about every field.
+std::string_view unquoted(std::string_view field) {
+  const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
+  return quoted ? trimmed(field.substr(1, field.size() - 2)) : field;
+}
+
+std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
   while (true) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
+    const std::size_t end = line.find(separator);
+    fields.push_back(unquoted(trimmed(line.substr(0, end))));
+    if (end == std::string_view::npos) return fields;
+    line.remove_prefix(end + 1);
   }
+}
+
+// Spreadsheets of countries with a decimal comma write semicolons, others tabs.
+char separator_of(std::string_view line) {
+  for (const char separator : {';', '\t'}) {
+    if (line.find(separator) != std::string_view::npos) return separator;
+  }
+  return ',';
 }
 
 std::optional<double> to_number(std::string_view text) {
@@ -60,29 +74,39 @@ struct CsvTable {
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::size_t columns) {
   const auto text = read_file(path);
   if (!text.ok()) return text.failure();
+  if (const std::string fault = fault_of_encoding(text.value()); !fault.empty())
+    return Failure{"cannot read " + path.string() + ": " + fault};
   CsvTable table;
-  std::string_view rest = text.value();
-  bool first = true;
+  std::string_view rest = without_byte_order_mark(text.value());
+  const char line_end = rest.find('\n') != std::string_view::npos ? '\n' : '\r';
+  char separator = '\0';
   for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
-    const std::size_t end = rest.find('\n');
-    const std::string_view line = trimmed(rest.substr(0, end));
+    const std::size_t end = rest.find(line_end);
+    const std::string_view line = rest.substr(0, end);
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    if (line.empty() || line.front() == '#') continue;
-    const std::vector<std::string_view> fields = fields_of(line);
+    if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
+    const bool first = separator == '\0';
+    if (first) separator = separator_of(trimmed(line));
+    const std::vector<std::string_view> fields = fields_of(line, separator);
+    if (std::ranges::all_of(fields, [](std::string_view field) { return field.empty(); })) continue;
     std::vector<double> row;
     for (const std::string_view field : fields) {
       if (const auto value = to_number(field)) row.push_back(*value);
     }
     if (first && row.empty()) {
-      table.header = std::string(line);
+      for (const std::string_view field : fields)
+        table.header += (table.header.empty() ? "" : ",") + std::string(field);
     } else if (row.size() != columns || fields.size() != columns) {
+      const std::string between = separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : "commas";
       return Failure{path.string() + ":" + std::to_string(line_number) + ": expected " +
-                     std::to_string(columns) + " finite numbers with commas between them"};
+                     std::to_string(columns) + " finite numbers with " + between + " between them" +
+                     (separator != ',' && line.find(',') != std::string_view::npos
+                          ? "; a decimal point is written ."
+                          : "")};
     } else {
       table.rows.push_back(std::move(row));
       table.lines.push_back(line_number);
     }
-    first = false;
   }
   return table;
 }
@@ -146,9 +170,9 @@ Result<std::vector<std::string>> ResourceCache::digests() {
   std::vector<std::string> digests;
   for (UsedFile& file : used_) {
     if (file.digest.empty()) {
-      const auto contents = read_file(file.path);
-      if (!contents.ok()) return contents.failure();
-      file.digest = sha256_hex(contents.value());
+      auto digest = sha256_of_file(file.path);
+      if (!digest.ok()) return digest.failure();
+      file.digest = std::move(digest).value();
     }
     digests.push_back(file.digest);
   }

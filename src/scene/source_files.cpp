@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 
 #include "backlight/base/files.h"
@@ -60,10 +61,18 @@ std::string SourceFiles::sha256() {
 Node SourceFiles::parse(const std::string& text, const std::string& name,
                         const std::filesystem::path& folder) {
   const std::size_t source = description_.sources.size();
-  description_.sources.push_back(std::make_shared<const SourceText>(SourceText{name, text}));
+  const std::string plain(without_byte_order_mark(text));
+  description_.sources.push_back(std::make_shared<const SourceText>(SourceText{name, plain}));
   description_.folders.push_back(folder);
   digest_.update(text);
-  auto parsed = parse_toml(text, static_cast<std::uint32_t>(source), description_.memory.get());
+  if (const std::string fault = fault_of_encoding(text); !fault.empty()) {
+    is_toml_ = false;
+    SourceSpan whole_file;
+    whole_file.source = description_.sources.back();
+    diagnostics_.error(whole_file, fault);
+    return Node{NodeTable{}, {}};
+  }
+  auto parsed = parse_toml(plain, static_cast<std::uint32_t>(source), description_.memory.get());
   if (const auto* error = std::get_if<TomlError>(&parsed)) {
     is_toml_ = false;
     diagnostics_.error(description_.span(error->place), error->message);
@@ -140,10 +149,13 @@ void SourceFiles::append(Node& merged, Node&& part) {
       merged.table()->push_back(std::move(entry));
     } else if (NodeTable* into = there->node.table(), *from = entry.node.table();
                into != nullptr && from != nullptr) {
+      const bool replaces = entry.name == "params";
+      std::unordered_map<std::string, std::size_t> place_of;
+      for (std::size_t i = 0; replaces && i < into->size(); ++i) place_of.emplace((*into)[i].name, i);
       for (Entry& named : *from) {
-        Entry* same = entry.name == "params" ? find(there->node, named.name) : nullptr;
-        if (same != nullptr) {
-          *same = std::move(named);
+        const auto same = replaces ? place_of.find(named.name) : place_of.end();
+        if (same != place_of.end()) {
+          (*into)[same->second] = std::move(named);
         } else {
           into->push_back(std::move(named));
         }

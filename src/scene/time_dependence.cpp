@@ -7,10 +7,9 @@ namespace backlight {
 TimeDependence::TimeDependence(const Description& description)
     : variable_changes_(description.variables.size(), false) {
   variable_changes_[0] = variable_changes_[1] = true;  // t and frame
-  const Entry* parameters = find(description.root, "params");
+  const std::vector<const Entry*> parameters = description.parameters();
   for (const std::size_t i : description.parameter_order) {
-    const Entry* entry = parameters != nullptr ? find(parameters->node, description.variables[i]) : nullptr;
-    if (entry != nullptr) variable_changes_[i] = changes(entry->node);
+    if (parameters[i] != nullptr) variable_changes_[i] = changes(parameters[i]->node);
   }
 }
 
@@ -19,10 +18,9 @@ bool TimeDependence::changes(const Expression& expression) const {
   const bool of_a_surface = expression.variables() == count + formula_coordinates;
   const std::size_t first = of_a_surface ? 1 : 0;  // the surface's t is its own
   const std::size_t shift = of_a_surface ? formula_coordinates : 0;
-  for (std::size_t i = first; i < count; ++i) {
-    if (variable_changes_[i] && expression.uses(i + shift)) return true;
-  }
-  return false;
+  return std::ranges::any_of(expression.used_variables(), [&](std::size_t used) {
+    return used >= first + shift && variable_changes_[used - shift];
+  });
 }
 
 bool TimeDependence::changes(const Node& node, std::string_view but_for) const {

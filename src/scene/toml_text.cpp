@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "backlight/base/memory.h"
 
@@ -13,6 +14,8 @@ namespace {
 
 // The TOML library recurses once for each part of a dotted key, without a limit of its own.
 constexpr int longest_dotted_key = 64;
+// And once for each table and array within another; it limits these, but not what dotted keys make of them.
+constexpr int deepest_nesting = 512;
 
 Place place_of(const toml::source_region& region, std::uint32_t source) {
   Place place{source, region.begin.line, region.begin.column, 1};
@@ -107,10 +110,19 @@ struct Cursor {
   }
 };
 
-// The place of a key of too many parts: dots with nothing between them that ends a key.
-std::optional<Place> overlong_key(std::string_view text, std::uint32_t source) {
+TomlError too_deep(const Cursor& cursor, std::uint32_t source) {
+  return {{source, cursor.line, cursor.column, 1},
+          "tables and arrays are nested more than " + std::to_string(deepest_nesting) + " deep"};
+}
+
+// What would need too much of the stack: a key of too many parts (dots with nothing between them that ends a
+// key), or too many values within each other.
+std::optional<TomlError> overlong_way(std::string_view text, std::uint32_t source) {
   Cursor cursor;
   int dots = 0;
+  int key_dots = 0;  // of the key whose value begins
+  int depth = 0;
+  std::vector<int> opened;  // how deep each open bracket goes
   char quote = 0;
   bool comment = false;
   for (const char c : text) {
@@ -123,8 +135,22 @@ std::optional<Place> overlong_key(std::string_view text, std::uint32_t source) {
     } else if (!comment) {
       if (c == '"' || c == '\'') quote = c;
       if (c == '#') comment = true;
+      if ((c == ']' || c == '}') && !opened.empty()) {
+        depth -= opened.back();
+        opened.pop_back();
+      }
+      if (c == '[' || c == '{') {
+        opened.push_back(key_dots + 1);
+        depth += key_dots + 1;
+        if (depth > deepest_nesting) return too_deep(cursor, source);
+      }
+      if (c == '=') key_dots = dots;
+      if (std::string_view("\n,{}[]").find(c) != std::string_view::npos) key_dots = 0;
       if (std::string_view("\n#,={}[]").find(c) != std::string_view::npos) dots = 0;
-      if (c == '.' && ++dots >= longest_dotted_key) return Place{source, cursor.line, cursor.column, 1};
+      if (c == '.' && ++dots >= longest_dotted_key) {
+        return TomlError{{source, cursor.line, cursor.column, 1},
+                         "a dotted key of more than " + std::to_string(longest_dotted_key) + " parts"};
+      }
     }
     cursor.pass(c);
   }
@@ -148,9 +174,7 @@ std::string message_of(const toml::parse_error& error) {
 
 std::variant<Node, TomlError> parse_toml(std::string_view text, std::uint32_t source,
                                          std::pmr::memory_resource* memory) {
-  if (const auto place = overlong_key(text, source)) {
-    return TomlError{*place, "a dotted key of more than " + std::to_string(longest_dotted_key) + " parts"};
-  }
+  if (auto wrong = overlong_way(text, source)) return *std::move(wrong);
   try {
     Node root{NodeTable{}, {source, 1, 1, 1}};
     {

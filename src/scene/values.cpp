@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "time_dependence.h"
+
 namespace backlight {
 namespace {
 
@@ -13,6 +15,11 @@ std::string sentence(const Key& key, double value, const ImageValues& values, co
   const auto* expression = std::get_if<Expression>(&node.value);
   if (expression != nullptr && expression->uses(0)) text += " at t = " + number_text(values.variables[0]);
   return text;
+}
+
+// Of values without a time (`t` is NaN), those that need one.
+bool depends_on_time(const Node& node, const ImageValues& values) {
+  return std::isnan(values.variables[0]) && TimeDependence(values.description).changes(node);
 }
 
 bool sound(const Node& node) {
@@ -77,12 +84,12 @@ std::optional<double> TableView::evaluated(const Node& node, const Key& key) con
   }
   if (key.range.contains(value)) return value + 0.0;  // -0 becomes 0: equal numbers have equal bits
   std::string message = sentence(key, value, *values_, node);
-  if (std::isnan(values_->variables[0])) {
+  if (depends_on_time(node, *values_)) {
     message = "'" + std::string(key.name) + "' may not depend on t or frame";
   } else if (!std::isfinite(value)) {
     message += ", which is not a finite number";
   } else {
-    message += ", but must be " + key.range.words();
+    message += ", but " + key.range.complaint(value);
   }
   values_->error(node.place, message);
   return std::nullopt;

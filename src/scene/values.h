@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "backlight/base/diagnostics.h"
@@ -21,12 +22,14 @@ struct ImageValues {
   std::vector<double> variables;  ///< t, frame, parameters
   Diagnostics& diagnostics;
   std::vector<Dual> rates = {};  ///< the same with their derivatives by t; empty where nothing can move
-  std::vector<std::size_t> wrong_variables = {};  ///< parameters that are no numbers: reported, and 0
+  std::unordered_set<std::size_t> wrong_variables = {};  ///< parameters that are no numbers: reported, and 0
 
   /// What is made of them is not complained about besides.
   [[nodiscard]] bool uses_wrong_variable(const Expression& expression) const {
-    return std::any_of(wrong_variables.begin(), wrong_variables.end(),
-                       [&](std::size_t i) { return expression.uses(i); });
+    if (wrong_variables.empty()) return false;
+    const std::vector<std::size_t> used = expression.used_variables();
+    return std::any_of(used.begin(), used.end(),
+                       [&](std::size_t variable) { return wrong_variables.count(variable) > 0; });
   }
 
   void error(const Place& place, std::string message, std::string hint = {}) {

@@ -33,8 +33,10 @@ struct Binning {
   double low;
   double high;
 
+  /// Halves, whose differences are finite for centres of either sign; halving changes no digit.
   [[nodiscard]] int bin(double centre) const {
-    return std::min(bins - 1, static_cast<int>(bins * ((centre - low) / (high - low))));
+    const double part = (0.5 * centre - 0.5 * low) / (0.5 * high - 0.5 * low);
+    return std::min(bins - 1, static_cast<int>(bins * part));
   }
 };
 

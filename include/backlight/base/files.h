@@ -65,7 +65,24 @@ class AtomicFile {
 /// Writes `contents` to `path` through an AtomicFile.
 Result<void> write_file(const std::filesystem::path& path, std::string_view contents);
 
-/// All bytes of a file. Fails on a folder, a missing or an unreadable file.
-Result<std::string> read_file(const std::filesystem::path& path);
+/// No text that is read is longer (in bytes): what comes out of a pipe may have no end.
+inline constexpr std::size_t longest_text = std::size_t{256} << 20U;
+
+/// All bytes of a file or a pipe. Fails on a folder, a device, a missing or an unreadable file, on more than
+/// `longest` bytes, and on a pipe from which nothing comes for 10 s.
+Result<std::string> read_file(const std::filesystem::path& path, std::size_t longest = longest_text);
+
+/// A text without the mark of UTF-8 that some editors put before it.
+std::string_view without_byte_order_mark(std::string_view text);
+
+/// Why bytes are no text that can be read ("it is UTF-16 text; save it as UTF-8"), or empty.
+std::string fault_of_encoding(std::string_view bytes);
+
+/// The SHA-256 of a regular file of any size, in hexadecimal digits.
+Result<std::string> sha256_of_file(const std::filesystem::path& path);
+
+/// Fails, with the reason, on anything that is no regular file: for files that are read out of order, by
+/// libraries that would wait for a pipe or read a device without end.
+Result<void> require_regular_file(const std::filesystem::path& path);
 
 }  // namespace backlight

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <variant>
 #include <vector>
 
@@ -24,6 +26,22 @@ struct ExpressionError {
   int length = 1;
   std::string message;
   std::string hint;  ///< what to write instead; may be empty
+};
+
+/// The names of an expression's variables, in order. Made once for all expressions of a scene, whose
+/// parameters may be many: a name is then found at once.
+class VariableNames {
+ public:
+  VariableNames(std::vector<std::string> names);
+  VariableNames(std::initializer_list<std::string> names) : VariableNames(std::vector<std::string>(names)) {}
+
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  /// The index of a name (of several equal ones the first), or nothing.
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
+
+ private:
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::size_t> index_of_;
 };
 
 /// A formula in named variables. Immutable, cheap to copy, and safe to use from many threads at once.
@@ -52,7 +70,7 @@ class Expression {
 
   /// Compiles `text`. A name of the language (is_expression_name) is never looked up in `variables`.
   static std::variant<Expression, ExpressionError> parse(std::string_view text,
-                                                         const std::vector<std::string>& variables);
+                                                         const VariableNames& variables);
 
   /// The value for variables in the order they were given to parse().
   /// Throws std::invalid_argument when `values` is too short. Allocates only beyond 64 live intermediate
@@ -75,6 +93,8 @@ class Expression {
 
   /// Whether the value depends on the variable of this index.
   [[nodiscard]] bool uses(std::size_t variable) const;
+  /// The indices of all variables that the value depends on, each once, in rising order.
+  [[nodiscard]] std::vector<std::size_t> used_variables() const;
 
   /// The value, when it depends on no variable. May be NaN or infinite, as in "1/0".
   [[nodiscard]] std::optional<double> constant() const;

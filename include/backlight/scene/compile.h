@@ -25,6 +25,9 @@ struct ImageRequest {
   std::optional<int> wavelengths;
   std::optional<unsigned> seed;
   std::optional<std::vector<std::string>> aovs;
+  /// To be told of and not rendered: of a lattice with very many copies only the first are made, the others
+  /// counted (SceneFrame::left_out).
+  bool outline = false;
 };
 
 struct CompiledParts;

@@ -87,6 +87,9 @@ struct Description {
 
   [[nodiscard]] SourceSpan span(const Place& place) const;
 
+  /// Where each of `variables` is written; null for t and frame.
+  [[nodiscard]] std::vector<const Entry*> parameters() const;
+
   /// Forgets what is in the picture, which is nearly all of a large scene, and the texts: of the film, the
   /// cameras, the animation and the parameters all stays, but for the lines shown beside errors.
   void forget_contents();

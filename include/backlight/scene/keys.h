@@ -46,11 +46,21 @@ struct Range {
   bool above_least = false;     ///< `least` itself is not allowed
   bool below_greatest = false;  ///< `greatest` itself is not allowed
   bool whole = false;           ///< whole numbers only
+  /// No larger in size than this, and of what must be positive no smaller than its inverse: so that squares
+  /// of squares of lengths are numbers too.
+  double magnitude = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool contains(double value) const;
+  [[nodiscard]] bool is_positive() const { return least == 0.0 && above_least; }
   /// "greater than 0 and at most 1", "a whole number of at least 1"; empty when everything is allowed.
   [[nodiscard]] std::string words() const;
+  /// Why a finite value is not allowed: "must be greater than 0", "must be at most 1e50 in size".
+  [[nodiscard]] std::string complaint(double value) const;
 };
+
+/// The greatest size of lengths, times and what is made of them; the least of what must be positive is its
+/// inverse.
+inline constexpr double greatest_magnitude = 1e50;
 
 /// Stands for a key's absence in the place of a default.
 struct Nothing {};

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -122,12 +123,29 @@ struct Object {
 };
 
 /// One inertial frame with all that is at rest in it.
+/// What a surface takes while its frame's search tree is made, about.
+inline constexpr std::uint64_t bytes_of_surface = 900;
+
+/// Copies of a surface that were counted and not made (ImageRequest::outline).
+struct CopiesLeftOut {
+  int surface = 0;  ///< of the frame
+  std::size_t copies = 0;
+};
+
 struct SceneFrame {
   std::string name;  ///< as in the file; empty for a frame made by a thing's own velocity
   InertialFrame motion;
   /// Never null. Images in which it is the same share it.
   std::shared_ptr<const SurfaceSet> surfaces = std::make_shared<const SurfaceSet>();
   SharedVector<int> object_of_surface;  ///< index into Scene::objects, by surface index
+  std::vector<CopiesLeftOut> left_out;  ///< empty in a scene that is rendered
+
+  /// How many surfaces there are, with those that were left out.
+  [[nodiscard]] std::size_t surface_count() const {
+    std::size_t count = object_of_surface.size();
+    for (const CopiesLeftOut& left : left_out) count += left.copies;
+    return count;
+  }
 };
 
 struct Stereo {
