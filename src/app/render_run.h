@@ -48,7 +48,8 @@ class RenderRun {
     std::unique_ptr<Claim> claim;  ///< null: without
     RenderStatistics statistics;
     ImageFaults faults;
-    std::string record;  ///< the object of --stats
+    std::vector<std::string> png_lines;  ///< to be said of the PNG
+    std::string record;                  ///< the object of --stats
   };
 
   Outcome take_all(const std::vector<const PlannedImage*>& images);
@@ -70,7 +71,9 @@ class RenderRun {
   Outcome skip(const PlannedImage& image, const std::string& why);
   Outcome trouble(const std::string& what);
 
-  Result<void> complete_png(const PlannedImage& image) const;
+  /// Makes the PNG unless it is there; returns what is to be said of how.
+  [[nodiscard]] Result<std::vector<std::string>> complete_png(const PlannedImage& image) const;
+  void tell_of_png(const PlannedImage& image, const std::vector<std::string>& lines);
   void remove_superseded(const PlannedImage& image) const;
   void resume(const PlannedImage& image, PartialImage& partial);
   void snapshot(const Work& work);
@@ -85,6 +88,7 @@ class RenderRun {
   ProgressReporter progress_;
   std::optional<Scene> first_;
   bool has_stopped_ = false;
+  bool has_told_of_film_ = false;
   double last_seconds_ = 1.0;                  // that the image before took
   std::vector<const PlannedImage*> waiting_;   // in the hands of other processes
   std::deque<std::shared_ptr<Work>> in_hand_;  // being traced, or begun behind those
