@@ -25,6 +25,18 @@ std::size_t bin_of(double luminance) {
   return static_cast<std::size_t>((stop - lowest_stop) * bins_a_stop);
 }
 
+// By how many stops the median luminance, of all pixels, is above 1; 0 where it is below.
+double stop_passed_by_half(const LuminanceCounts& counts) {
+  double low = 0.0;
+  double high = highest_stop;
+  if (counts.share_above(1.0) <= 0.5) return 0.0;
+  while (high - low > 1.0 / bins_a_stop) {
+    const double middle = 0.5 * (low + high);
+    (counts.share_above(std::exp2(middle)) > 0.5 ? low : high) = middle;
+  }
+  return low;
+}
+
 }  // namespace
 
 LuminanceCounts::LuminanceCounts()
@@ -75,15 +87,15 @@ double automatic_exposure(const LuminanceCounts& counts, double key) {
 }
 
 DisplayTransform automatic_transform(const LuminanceCounts& counts) {
-  const double average = counts.log_average();
-  if (counts.share_beyond_white() <= most_cut || average <= 0.0) return {};
-  const double exposure = std::min(1.0, 1.0 / average);
+  if (counts.share_beyond_white() <= most_cut || counts.greatest() <= 0.0) return {};
+  const double median_stop = stop_passed_by_half(counts);
+  const double exposure = std::exp2(-median_stop);
   const double white = counts.greatest() * exposure;
   // A saturated colour may have a channel beyond white while its luminance is below.
-  if (white <= 1.0) return {std::log2(exposure), ToneCurve::reinhard, 1.0};
+  if (white <= 1.0) return {-median_stop, ToneCurve::reinhard, 1.0};
   const bool wide =
       white >= least_white_of_drago && counts.share_above(next_to_white / exposure) > most_flattened;
-  return {std::log2(exposure), wide ? ToneCurve::drago : ToneCurve::reinhard, white};
+  return {-median_stop, wide ? ToneCurve::drago : ToneCurve::reinhard, white};
 }
 
 bool DisplayChoice::is_automatic() const {

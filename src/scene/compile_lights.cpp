@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 
 #include "compile_parts.h"
@@ -45,12 +46,13 @@ void read_strength(const TableView& table, std::string_view key, Light& light) {
 }
 
 // The light's colour takes the film's exposure; that of a blackbody, whose range passes a double's, takes the
-// strength too.
+// strength too: where it flickers, that of the image's time, by which the formula is divided.
 void take_exposure(double exposure, Light& light) {
   light.colour = times(light.colour, exposure);
-  if (!light.colour.spectrum.is_blackbody() || light.flickers || light.strength == 0.0) return;
-  light.colour = times(light.colour, light.strength);
-  light.strength = 1.0;
+  const bool takes_strength =
+      light.colour.spectrum.is_blackbody() && light.strength > 0.0 && std::isfinite(light.strength);
+  if (takes_strength) light.colour = times(light.colour, light.strength);
+  if (takes_strength != light.flickers) light.strength = 1.0;
 }
 
 void compile_light(Compilation& c, const Node& node) {

@@ -13,9 +13,9 @@ constexpr double illuminance_of_magnitude_0 = 1e-6;
 // The same in lux, outside the atmosphere: Cox (editor), "Allen's Astrophysical Quantities", 4th edition,
 // 2000.
 constexpr double lux_of_magnitude_0 = 2.54e-6;
-// Film Y of the faintest star in the pixel that it falls on, where nothing else is said: 25 of 255 steps of
+// Film Y of the faintest star in the pixel that it falls on, where nothing else is said: 38 of 255 steps of
 // an sRGB screen.
-constexpr double film_of_faintest = 0.01;
+constexpr double film_of_faintest = 0.02;
 // Made-up stars go down to what the naked eye sees.
 constexpr double faintest_magnitude = 6.5;
 

@@ -62,7 +62,9 @@ class Foresight {
     const NodeArray& nodes = *entry->node.array();
     for (std::size_t i = 0; i < std::min(nodes.size(), c_.scene.lights.size()); ++i) {
       const Light& light = c_.scene.lights[i];
-      warn(light.colour.spectrum.scaled(light.strength), light.frame, nodes[i], "the light");
+      // Of one that flickers, its colour says how strong it is now.
+      const Spectrum& unit = light.colour.spectrum;
+      warn(light.flickers ? unit : unit.scaled(light.strength), light.frame, nodes[i], "the light");
     }
   }
 

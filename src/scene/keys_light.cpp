@@ -110,8 +110,8 @@ KeyTable stars() {
               "With 1, a star of magnitude 0 has an illuminance of 1e-6 film Y · sr: film Y 1 in a pixel of "
               "1e-6 sr. A magnitude more is a factor 10^-0.4. Without it the stars are as an eye in the dark "
               "sees them, whatever the resolution and the field of view: at rest, one of magnitude 6.5 has "
-              "film Y 0.01 in a pixel as large as the one in the middle, which is just visible, and one of "
-              "magnitude 1.5 has film Y 1.",
+              "film Y 0.02 in a pixel as large as the one in the middle, which is just visible, and one of "
+              "magnitude 2.25 has film Y 1.",
               at_least(0)),
        boolean("absolute", false,
                "A star of magnitude 0 has an illuminance of 2.54e-6 lx, so film Y 2.54e-6 cd/m² · sr times "

@@ -18,7 +18,7 @@ LinearRgb texture_reflectance(const Material& material, double u, double v) {
 double strength_at(const Light& light, double own_time, double c, std::vector<double>& variables) {
   if (!light.flickers) return light.strength;
   variables[0] = own_time / c;
-  const double strength = light.strength_of_time.evaluate(variables);
+  const double strength = light.strength_of_time.evaluate(variables) / light.strength;
   return strength < 0.0 ? 0.0 : strength;  // NaN stays, and is counted
 }
 

@@ -63,7 +63,7 @@ TEST_F(View, KeepsManyDecadesApart) {
   EXPECT_NE(outcome.err.find("shown with --tone drago --exposure "), std::string::npos) << outcome.err;
   const PixelBytes a = shown("a.png");
   EXPECT_EQ(a.samples[3 * 8], 255);
-  // The log-average, of what is within six decades of the greatest, is 10: from a hundredth of that.
+  // From a tenth of white on.
   for (std::size_t i = 3; i < decades.size(); ++i) {
     EXPECT_GT(a.samples[3 * i], a.samples[3 * i - 3] + 3) << decades[i];
   }
@@ -93,6 +93,24 @@ TEST_F(View, ShowsNothingBrighterThanItIsOnTheFilm) {
         EXPECT_LE(shown_by_itself.samples[i], cut.samples[i]) << lamp << " x " << lamps;
     }
   }
+}
+
+// What is dark is seen though a lamp is a million times as bright.
+TEST_F(View, ALampDoesNotHideTheNight) {
+  std::vector<float> night(100, 0.02F);
+  for (const float lamp : {4.0F, 4e2F, 4e4F, 4e8F}) {
+    night[0] = lamp;
+    picture("night.exr", night);
+    expect_success({"view", "night.exr"});
+    EXPECT_NEAR(shown("night.png").samples[3], 39, 1) << lamp;  // the sRGB signal of 0.02 is 38.6
+  }
+  // And much light all over is exposed down.
+  std::vector<float> day(100, 3e4F);
+  day[0] = 1e5F;
+  picture("day.exr", day);
+  expect_success({"view", "day.exr"});
+  EXPECT_LT(shown("day.png").samples[3], 220);
+  EXPECT_GT(shown("day.png").samples[3], 150);
 }
 
 TEST_F(View, HardlyChangesAPictureThatIsHardlyBeyondWhite) {
