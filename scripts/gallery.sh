@@ -95,6 +95,7 @@ figure fig5b-street-mercator-0.9c fig5b-street-mercator-0.9c
 figure fig6-starfield fig6-starfield
 figure fig6b-real-stars-rest fig6b-real-stars -D params.v=0
 figure fig6b-real-stars fig6b-real-stars
+figure cosmic-background cosmic-background
 figure fig7-tram-shadow fig7-tram-shadow -- --tone reinhard --white 8 --exposure 0.5
 figure terrell-row terrell-row
 figure algebraic-rest algebraic-rest -- --exposure 0 --tone none

@@ -55,8 +55,8 @@ std::unique_ptr<CLI::App> make_app(const std::string& name, const std::string& w
 
 // An option whose value is read by `read`, from a text to a Result.
 template <class Read, class Set>
-CLI::Option* add_value(CLI::App& app, const char* names, const char* value, const char* help, Read read,
-                       Set set) {
+CLI::Option* add_value(CLI::App& app, const char* names, const char* value, const std::string& help,
+                       Read read, Set set) {
   const std::string all = names;
   const std::string name = all.substr(all.rfind(',') + 1);
   return app
@@ -193,11 +193,51 @@ void add_film_flags(CLI::App& app, ImageRequest& request, RenderOptions& options
       ->group(group);
 }
 
-std::vector<std::pair<std::string, ToneCurve>> tone_curves() {
-  return {{"none", ToneCurve::none},
-          {"drago", ToneCurve::drago},
-          {"reinhard", ToneCurve::reinhard},
-          {"log", ToneCurve::logarithmic}};
+// The same for view and for the PNGs of render, where they stand in the group of `needs`.
+void add_display_flags(CLI::App& app, DisplayChoice& display, const char* group, CLI::Option* needs) {
+  const auto finish = [&](CLI::Option* option) {
+    option->group(group);
+    if (needs != nullptr) option->needs(needs);
+  };
+  const std::string of_pngs = needs != nullptr ? "of the PNGs: " : "";
+  finish(
+      app.add_option_function<std::string>(
+             "--exposure",
+             [&display](const std::string& text) {
+               if (text == "auto") {
+                 display.automatic_exposure = true;
+                 return;
+               }
+               const auto stops = parse_number(text);
+               if (!stops.ok()) throw CLI::ValidationError("--exposure", stops.error() + " or auto");
+               display.exposure_stops = stops.value();
+             },
+             of_pngs +
+                 "brighten by a factor of 2 a stop, negative darkens; auto shows the log-average luminance "
+                 "as middle grey")
+          ->type_name("STOPS"));
+  finish(add_value(app, "--tone", "CURVE",
+                   of_pngs + "what becomes of light beyond white. auto (the default): none if next to "
+                             "nothing is, else reinhard, or "
+                             "drago where many powers of ten are, exposed so that nothing is cut, and named "
+                             "on stderr; none: cut; "
+                             "drago: logarithm, exposed by itself; reinhard; log",
+                   choice<std::optional<ToneCurve>>({{"auto", std::nullopt},
+                                                     {"none", ToneCurve::none},
+                                                     {"drago", ToneCurve::drago},
+                                                     {"reinhard", ToneCurve::reinhard},
+                                                     {"log", ToneCurve::logarithmic}}),
+                   [&display](std::optional<ToneCurve> curve) { display.tone = curve; }));
+  finish(add_value(app, "--white", "L",
+                   of_pngs +
+                       "luminance that the curve shows as white, after exposure; default 1000, for drago the "
+                       "greatest",
+                   parse_number, [&display](double white) { display.white = white; }));
+}
+
+void check_display(const DisplayChoice& display) {
+  if (display.white && !(*display.white > 0.0))
+    throw CLI::ValidationError("--white", "expected a number greater than 0");
 }
 
 void add_output_flags(CLI::App& app, RenderOptions& options) {
@@ -210,22 +250,7 @@ void add_output_flags(CLI::App& app, RenderOptions& options) {
       ->group(group);
   CLI::Option* png = add_flag(app, "--png", options.png, "write a PNG to look at beside each EXR");
   png->group(group);
-  add_value(
-      app, "--tone", "CURVE",
-      "of the PNGs, the same for all: none (the default: light beyond white is cut), drago, reinhard, log; "
-      "view chooses by itself and prints what",
-      choice<ToneCurve>(tone_curves()), [&options](ToneCurve curve) { options.display.tone = curve; })
-      ->needs(png)
-      ->group(group);
-  add_value(app, "--exposure", "STOPS", "of the PNGs: brighten by a factor of 2 a stop, negative darkens",
-            parse_number, [&options](double stops) { options.display.exposure_stops = stops; })
-      ->needs(png)
-      ->group(group);
-  add_value(app, "--white", "L",
-            "of the PNGs: luminance that the curve shows as white, after exposure; default 1000",
-            parse_number, [&options](double white) { options.display.white = white; })
-      ->needs(png)
-      ->group(group);
+  add_display_flags(app, options.display, group, png);
   add_value(app, "--stats", "FILE",
             "write one JSON object for each image, a line each: time, rays, pixels that are not finite... "
             "(- for standard output)",
@@ -317,8 +342,7 @@ Parser render_parser() {
     RenderOptions options = state->options;
     if (state->half && state->single) throw CLI::ValidationError("--half", "not together with --float");
     if (options.frames && options.time) throw CLI::ValidationError("--time", "not together with --frames");
-    if (!(options.display.white > 0.0))
-      throw CLI::ValidationError("--white", "expected a number greater than 0");
+    check_display(options.display);
     if (state->single) options.storage = ColourStorage::always_float;
     options.skip_existing |= options.resume || options.claim;
     options.scene = state->scene.scene();
@@ -441,37 +465,9 @@ Parser compare_parser() {
   return parser;
 }
 
-void add_display_flags(CLI::App& app, ViewOptions& options) {
+void add_view_flags(CLI::App& app, ViewOptions& options) {
   const char* group = "Display";
-  app.add_option_function<std::string>(
-         "--exposure",
-         [&options](const std::string& text) {
-           if (text == "auto") {
-             options.automatic_exposure = true;
-             return;
-           }
-           const auto stops = parse_number(text);
-           if (!stops.ok()) throw CLI::ValidationError("--exposure", stops.error() + " or auto");
-           options.exposure_stops = stops.value();
-         },
-         "brighten by a factor of 2 a stop, negative darkens; auto shows the log-average luminance as middle "
-         "grey")
-      ->type_name("STOPS")
-      ->group(group);
-  add_value(app, "--tone", "CURVE",
-            "what becomes of light beyond white. auto (the default): none if next to nothing is, else drago; "
-            "none: cut; drago: logarithm, for ranges of many powers of ten, exposed by itself; reinhard; log",
-            choice<std::optional<ToneCurve>>({{"auto", std::nullopt},
-                                              {"none", ToneCurve::none},
-                                              {"drago", ToneCurve::drago},
-                                              {"reinhard", ToneCurve::reinhard},
-                                              {"log", ToneCurve::logarithmic}}),
-            [&options](std::optional<ToneCurve> curve) { options.tone = curve; })
-      ->group(group);
-  add_value(app, "--white", "L",
-            "luminance that the curve shows as white, after exposure; default 1000, for drago the greatest",
-            parse_number, [&options](double white) { options.white = white; })
-      ->group(group);
+  add_display_flags(app, options.display, group, nullptr);
   add_value(app, "--eye", "EYE", "left (the default) or right, of a stereo pair",
             choice<std::size_t>({{"left", 0}, {"right", 1}}),
             [&options](std::size_t view) { options.view = view; })
@@ -508,12 +504,11 @@ Parser view_parser() {
   add_value(app, "--columns", "N", "images in a row of a contact sheet", whole(1, 1000),
             [&options](std::int64_t columns) { options.columns = static_cast<int>(columns); })
       ->group("Output");
-  add_display_flags(app, options);
+  add_view_flags(app, options);
   add_verbosity(app, state->quiet, nullptr);
   parser.finish = [state]() -> Command {
     ViewOptions finished = state->options;
-    if (finished.white && *finished.white <= 0.0)
-      throw CLI::ValidationError("--white", "expected a number greater than 0");
+    check_display(finished.display);
     finished.files = image_files(state->files);
     if ((finished.sheet || finished.files.size() > 1) && finished.output.empty()) {
       throw CLI::ValidationError("", "several images make one contact sheet: name it with -o");

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "backlight/film/compare.h"
-#include "backlight/film/display.h"
+#include "backlight/film/exposure.h"
 #include "backlight/film/exr.h"
 #include "backlight/film/image.h"
 #include "backlight/render/image_sequence.h"
@@ -36,8 +36,8 @@ struct RenderOptions {
   std::optional<PixelBox> crop;
   ColourStorage storage = ColourStorage::automatic;
   bool png = false;
-  DisplayTransform display;  ///< of the PNGs
-  int threads = 0;           ///< 0: usable_threads()
+  DisplayChoice display;  ///< of the PNGs
+  int threads = 0;        ///< 0: usable_threads()
   ProgressStyle progress = ProgressStyle::automatic;
   Verbosity verbosity = Verbosity::normal;
   std::filesystem::path statistics;  ///< empty: none
@@ -72,14 +72,11 @@ struct CompareOptions {
 struct ViewOptions {
   std::vector<std::filesystem::path> files;  ///< several make a contact sheet
   std::filesystem::path output;              ///< empty: the file's name with .png; a folder: one PNG each
-  std::optional<ToneCurve> tone;             ///< none: as automatic_transform() chooses
-  std::optional<double> exposure_stops;      ///< beside what is chosen automatically
-  bool automatic_exposure = false;           ///< by the log-average luminance
-  std::optional<double> white;  ///< none: DisplayTransform's, or the greatest luminance for drago
-  std::size_t view = 0;         ///< 0: left, or the only one; 1: right
-  int columns = 0;              ///< of a contact sheet; 0: as square as it can be
-  bool sheet = false;           ///< a contact sheet was asked for by name
-  bool why = false;             ///< black pixels in the colours of why they are
+  DisplayChoice display;
+  std::size_t view = 0;  ///< 0: left, or the only one; 1: right
+  int columns = 0;       ///< of a contact sheet; 0: as square as it can be
+  bool sheet = false;    ///< a contact sheet was asked for by name
+  bool why = false;      ///< black pixels in the colours of why they are
   Verbosity verbosity = Verbosity::normal;
 };
 

@@ -18,10 +18,12 @@
 #include "backlight/base/memory.h"
 #include "backlight/base/thread_pool.h"
 #include "backlight/film/display.h"
+#include "backlight/film/exposure.h"
 #include "backlight/render/image_identity.h"
 #include "backlight/render/image_memory.h"
 #include "backlight/render/partial_file.h"
 #include "backlight/render/wavelength_estimate.h"
+#include "display_words.h"
 #include "exit_codes.h"
 #include "signals.h"
 
@@ -221,7 +223,9 @@ void RenderRun::remove_superseded(const PlannedImage& image) const {
 }
 
 RenderRun::Outcome RenderRun::skip(const PlannedImage& image, const std::string& why) {
-  if (const auto written = complete_png(image); !written.ok()) return trouble(written.error());
+  const auto png = complete_png(image);
+  if (!png.ok()) return trouble(png.error());
+  tell_of_png(image, png.value());
   remove_superseded(image);
   progress_.skip_image();
   if (options_.verbosity != Verbosity::quiet && progress_.style() != ProgressStyle::json) {
@@ -407,7 +411,11 @@ Result<void> RenderRun::store(Work& work) const {
   if (!image.png.empty()) std::filesystem::remove(image.png, ignored);
   const auto written =
       write_exr(image.exr, work.partial.image, work.header, options_.storage, work.settings.threads);
-  return written.ok() ? complete_png(image) : written;
+  if (!written.ok()) return written;
+  auto png = complete_png(image);
+  if (!png.ok()) return png.failure();
+  work.png_lines = std::move(png).value();
+  return {};
 }
 
 Result<void> RenderRun::conclude(Work& work, const Result<void>& stored) {
@@ -439,14 +447,35 @@ void RenderRun::record(Work& work) {
 }
 
 // The PNG is made from the file, so that it can be made later too, with the same bytes.
-Result<void> RenderRun::complete_png(const PlannedImage& image) const {
+Result<std::vector<std::string>> RenderRun::complete_png(const PlannedImage& image) const {
   std::error_code error;
-  if (image.png.empty() || std::filesystem::exists(image.png, error)) return {};
+  if (image.png.empty() || std::filesystem::exists(image.png, error)) return std::vector<std::string>{};
   const auto picture = read_exr(image.exr);
   if (!picture.ok()) return picture.failure();
-  const auto displayed = display_image(picture.value().image, options_.display);
+  LuminanceCounts counts;
+  if (options_.display.is_automatic()) {
+    if (const auto added = counts.add(picture.value().image, 0); !added.ok()) return added.failure();
+  }
+  const DisplayTransform transform = options_.display.transform(counts);
+  const auto displayed = display_image(picture.value().image, transform);
   if (!displayed.ok()) return displayed.failure();
-  return write_png(image.png, displayed.value().pixels);
+  if (const auto written = write_png(image.png, displayed.value().pixels); !written.ok())
+    return written.failure();
+  std::vector<std::string> lines;
+  if (transform.tone == ToneCurve::none) lines = lines_of(displayed.value().report);
+  if (const std::string words = words_of(transform); options_.display.is_automatic() && !words.empty())
+    lines.insert(lines.begin(), words);
+  return lines;
+}
+
+void RenderRun::tell_of_png(const PlannedImage& image, const std::vector<std::string>& lines) {
+  if (options_.verbosity == Verbosity::quiet || progress_.style() == ProgressStyle::json) return;
+  for (const std::string& line : lines) progress_.say(image.png.string() + ": " + line);
+  const bool chosen = !lines.empty() && !options_.display.tone && !std::exchange(has_told_of_film_, true);
+  if (!chosen || images_.size() < 2) return;
+  progress_.say(
+      "  each PNG is shown as suits it alone; for a film, view all of them together, or give --tone, "
+      "--exposure and --white");
 }
 
 void RenderRun::tell(const Work& work) {
@@ -464,6 +493,11 @@ void RenderRun::tell(const Work& work) {
                   " pixels are not finite, the first of them " + std::to_string(x) + "," + std::to_string(y) +
                   "\n  again: " + command_for(options_, planned, one_pixel(x, y)));
   }
+  if (faults.saturated > 0) {
+    progress_.say("backlight: warning: " + file + ": " + std::to_string(faults.saturated) +
+                  " pixels are brighter than a film value can be (3.4e38); their colour is kept, their "
+                  "brightness is not\n  a smaller 'exposure' of [film] may show them");
+  }
   if (statistics.rays.unresolved > 0) {
     progress_.say("backlight: warning: " + file + ": " + std::to_string(statistics.rays.unresolved) + " of " +
                   std::to_string(statistics.rays.primary) +
@@ -478,6 +512,7 @@ void RenderRun::tell(const Work& work) {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f s", statistics.seconds);
   progress_.say(file + "  " + seconds);
+  tell_of_png(planned, work.png_lines);
   if (options_.verbosity == Verbosity::verbose)
     progress_.say(statistics_words(work.scene, work.settings, statistics));
 }

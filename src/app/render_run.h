@@ -48,8 +48,9 @@ class RenderRun {
     std::unique_ptr<Claim> claim;  ///< null: without
     RenderStatistics statistics;
     ImageFaults faults;
-    bool lacks_memory = false;  ///< to be stored
-    std::string record;         ///< the object of --stats
+    bool lacks_memory = false;           ///< to be stored
+    std::vector<std::string> png_lines;  ///< to be said of the PNG
+    std::string record;                  ///< the object of --stats
   };
 
   bool begin_threads();
@@ -78,7 +79,9 @@ class RenderRun {
   Outcome skip(const PlannedImage& image, const std::string& why);
   Outcome trouble(const std::string& what);
 
-  Result<void> complete_png(const PlannedImage& image) const;
+  /// Makes the PNG unless it is there; returns what is to be said of how.
+  [[nodiscard]] Result<std::vector<std::string>> complete_png(const PlannedImage& image) const;
+  void tell_of_png(const PlannedImage& image, const std::vector<std::string>& lines);
   void remove_superseded(const PlannedImage& image) const;
   void resume(const PlannedImage& image, PartialImage& partial);
   void snapshot(const Work& work);
@@ -96,6 +99,7 @@ class RenderRun {
   std::optional<Scene> first_;
   bool has_stopped_ = false;
   bool some_failed_ = false;                   // of those that were finished to make room for another
+  bool has_told_of_film_ = false;
   double last_seconds_ = 1.0;                  // that the image before took
   std::optional<Claimant> claimant_;           // behind those who have claims
   std::vector<const PlannedImage*> waiting_;   // in the hands of other processes

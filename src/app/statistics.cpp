@@ -67,6 +67,7 @@ std::string statistics_json(const Scene& scene, const Needs& needs, const Render
   object.count("cameraRays", statistics.rays.primary).count("shadowRays", statistics.rays.shadow);
   object.count("dataRays", statistics.rays.data);
   object.count("nonFinitePixels", faults.non_finite).count("beyondHalfPixels", faults.beyond_half);
+  object.count("saturatedPixels", faults.saturated);
   object.count("surfacesMade", scene.counts.surfaces_made)
       .count("surfacesReused", scene.counts.surfaces_reused);
   object.count("materialsMade", scene.counts.materials_made)

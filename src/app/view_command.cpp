@@ -11,6 +11,7 @@
 #include "backlight/film/exr.h"
 #include "backlight/film/why_black.h"
 #include "commands.h"
+#include "display_words.h"
 #include "exit_codes.h"
 #include "messages.h"
 
@@ -61,25 +62,6 @@ fs::path output_path(const ViewOptions& options, const fs::path& file) {
   return goes_to_folder(options) ? options.output / name.filename() : options.output;
 }
 
-void print_report(const fs::path& file, const DisplayReport& report) {
-  const auto tell = [&file](std::size_t pixels, const std::string& what) {
-    if (pixels == 0) return;
-    std::cerr << file.string() << ": " << pixels << (pixels == 1 ? " pixel " : " pixels ") << what << '\n';
-  };
-  tell(report.beyond_white, "beyond white");
-  tell(report.outside_gamut, "outside the screen's colours");
-  tell(report.not_a_number, "not a number, shown magenta");
-}
-
-std::string flags_of(const DisplayTransform& transform) {
-  constexpr const char* names[] = {"none", "reinhard", "log", "drago"};
-  std::ostringstream text;
-  text << "--tone " << names[static_cast<std::size_t>(transform.tone)] << " --exposure "
-       << std::setprecision(6) << transform.exposure_stops;
-  if (transform.tone != ToneCurve::none) text << " --white " << transform.white;
-  return text.str();
-}
-
 // The first part that has the colour of this view; else the first.
 std::size_t part_to_show(const std::vector<ExrInfo>& parts, std::size_t view) {
   const auto has_colour = [view](const ExrInfo& part) {
@@ -101,9 +83,7 @@ Result<ExrPicture> read_shown(const fs::path& file, std::size_t view) {
 
 // One transform for all the images, so that they can be compared, and a film does not flicker.
 Result<DisplayTransform> transform_of(const ViewOptions& options) {
-  const bool expose_drago = options.tone == ToneCurve::drago && !options.exposure_stops;
-  const bool automatic = !options.tone || options.automatic_exposure || expose_drago ||
-                         (options.tone == ToneCurve::drago && !options.white);
+  const bool automatic = options.display.is_automatic();
   LuminanceCounts counts;
   for (const fs::path& file : automatic ? options.files : std::vector<fs::path>{}) {
     const auto picture = read_shown(file, options.view);
@@ -112,27 +92,9 @@ Result<DisplayTransform> transform_of(const ViewOptions& options) {
       return Failure{file.string() + ": " + added.error()};
     }
   }
-  DisplayTransform transform;
-  if (!options.tone) {
-    transform = automatic_transform(counts);
-    if (options.automatic_exposure && transform.tone == ToneCurve::none) {
-      transform.exposure_stops = automatic_exposure(counts);
-    }
-    transform.exposure_stops += options.exposure_stops.value_or(0.0);
-  } else {
-    transform.tone = *options.tone;
-    transform.exposure_stops =
-        options.automatic_exposure || expose_drago
-            ? automatic_exposure(counts, transform.tone == ToneCurve::drago ? 1.0 : 0.18)
-            : options.exposure_stops.value_or(0.0);
-    const double greatest = counts.greatest() * std::exp2(transform.exposure_stops);
-    if (transform.tone == ToneCurve::drago && greatest > 0.0) transform.white = greatest;
-  }
-  transform.white = options.white.value_or(transform.white);
-  const bool chosen = automatic && (transform.tone != ToneCurve::none || transform.exposure_stops != 0.0);
-  if (chosen && options.verbosity != Verbosity::quiet) {
-    std::cerr << "shown with " << flags_of(transform) << '\n';
-  }
+  const DisplayTransform transform = options.display.transform(counts);
+  const std::string words = automatic ? words_of(transform) : std::string();
+  if (!words.empty() && options.verbosity != Verbosity::quiet) std::cerr << words << '\n';
   return transform;
 }
 
@@ -178,7 +140,8 @@ Result<PixelBytes> shown(const fs::path& file, const ViewOptions& options,
   auto displayed = display_image(picture.value().image, transform, options.view);
   if (!displayed.ok()) return Failure{file.string() + ": " + displayed.error()};
   if (options.verbosity != Verbosity::quiet && transform.tone == ToneCurve::none) {
-    print_report(file, displayed.value().report);
+    for (const std::string& line : lines_of(displayed.value().report))
+      std::cerr << file.string() << ": " << line << '\n';
   }
   PixelBytes pixels = std::move(displayed.value().pixels);
   if (options.why) {

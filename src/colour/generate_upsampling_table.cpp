@@ -30,7 +30,7 @@ bool is_read(std::size_t level, std::size_t third, std::size_t second) {
 }
 
 double error_of(const sigmoid::Coefficients& fitted, const LinearRgb& rgb) {
-  return glm::length(reflected_colour(sigmoid::in_nanometres(fitted)) - rgb) / glm::length(rgb);
+  return glm::length(sigmoid::colour_of(fitted) - rgb) / glm::length(rgb);
 }
 
 // Up the brightnesses of one chromaticity: each fit starts from the one below, and from nothing if that
@@ -39,18 +39,12 @@ void fit_column(std::size_t largest, std::size_t third, std::size_t second, std:
   sigmoid::Coefficients fitted;
   for (std::size_t level = 0; level < grid::brightness_nodes && is_read(level, third, second); ++level) {
     const LinearRgb rgb = colour_of_node(largest, level, third, second);
-    const double root = std::sqrt(grid::brightness[level]);
-    bool found = false;
-    if (level > 0) {
-      const double darker = std::sqrt(grid::brightness[level - 1]) / root;
-      fitted = sigmoid::refine({fitted.a * darker, fitted.b * darker, fitted.c * darker}, rgb);
-      found = error_of(fitted, rgb) < 1e-7;
-    }
-    if (!found) fitted = sigmoid::fit(rgb);
+    if (level > 0) fitted = sigmoid::refine(fitted, rgb);
+    if (level == 0 || !(error_of(fitted, rgb) < 1e-7)) fitted = sigmoid::fit(rgb);
     const std::size_t at = grid::offset(largest, level, third, second);
-    values[at] = static_cast<float>(fitted.a * root);
-    values[at + 1] = static_cast<float>(fitted.b * root);
-    values[at + 2] = static_cast<float>(fitted.c * root);
+    values[at] = static_cast<float>(fitted.a);
+    values[at + 1] = static_cast<float>(fitted.b);
+    values[at + 2] = static_cast<float>(fitted.c);
   }
 }
 

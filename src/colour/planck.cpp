@@ -25,14 +25,17 @@ double planck::log_film_luminance(double kelvin) {
   return largest + std::log(sum / d65_sum);
 }
 
+double planck::log_absolute_luminance() {
+  constexpr double d65_sum = cie::d65_tristimulus()[1];
+  return std::log(683.0 * first_constant * d65_sum);
+}
+
 double blackbody_radiance(double kelvin, double nm) {
   const double x = planck::second_constant_nm_kelvin / (nm * kelvin);
-  // 2 h c^2 / nm^5, with 10^45 for the fifth power of nanometres and 10^-9 for "per nanometre".
-  constexpr double first_constant = 2.0 * planck::h * planck::c * planck::c * 1e36;
   const double grown = std::expm1(x);
   if (std::isinf(grown)) return 0.0;
   const double nm2 = nm * nm;
-  return first_constant / (nm2 * nm2 * nm * grown);
+  return planck::first_constant / (nm2 * nm2 * nm * grown);
 }
 
 }  // namespace backlight

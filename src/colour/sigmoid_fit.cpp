@@ -11,9 +11,6 @@ namespace {
 constexpr double centre_nm = 595.0;
 constexpr double half_width_nm = 235.0;
 
-// A colour with no component above this is black; coefficients would outgrow the range that x^2 can bear.
-constexpr double black = 1e-30;
-
 // s(x) reaches 0 and 1 to the last bit here, while x^2 does not overflow.
 constexpr double saturation = 1e150;
 
@@ -94,16 +91,34 @@ double grey_coefficient(double value) {
   return std::clamp((value - 0.5) / std::sqrt(value * (1.0 - value)), -saturation, saturation);
 }
 
-Coefficients negated(const Coefficients& k) {
-  return {-k.a, -k.b, -k.c};
-}
-
 }  // namespace
 
-SigmoidReflectance in_nanometres(const Coefficients& k) {
+Share share_of(const LinearRgb& rgb) {
+  const double most = std::max({rgb.x, rgb.y, rgb.z});
+  const double least = std::min({rgb.x, rgb.y, rgb.z});
+  // 1 - s(x) = s(-x): a light colour is the complement of a dark one.
+  Share share{rgb, 1.0, most + least > 1.0};
+  if (share.complement) share.rgb = Vec3{1.0} - rgb;
+  // The sigmoid of a dark colour may rise to 1 where the eye hardly notices, and be seen there after a shift.
+  const double largest = share.complement ? 1.0 - least : most;
+  if (largest < 0.5) {
+    share.gain = 2.0 * largest;
+    share.rgb = share.rgb / share.gain;
+  }
+  return share;
+}
+
+SigmoidReflectance reflectance_of(const Share& share, const Coefficients& coefficients) {
+  Coefficients k = coefficients;
+  if (share.complement) k = {-k.a, -k.b, -k.c};
   const double centre = centre_nm / half_width_nm;
+  const double half = 0.5 * share.gain;
   return {k.a / (half_width_nm * half_width_nm), (k.b - 2.0 * centre * k.a) / half_width_nm,
-          (k.a * centre - k.b) * centre + k.c};
+          (k.a * centre - k.b) * centre + k.c, share.complement ? 1.0 - half : half, half};
+}
+
+LinearRgb colour_of(const Coefficients& coefficients) {
+  return colour_of(make_samples(), coefficients);
 }
 
 Coefficients refine(Coefficients start, const LinearRgb& rgb) {
@@ -113,10 +128,6 @@ Coefficients refine(Coefficients start, const LinearRgb& rgb) {
 Coefficients fit(const LinearRgb& rgb) {
   const double most = std::max({rgb.x, rgb.y, rgb.z});
   const double least = std::min({rgb.x, rgb.y, rgb.z});
-  if (most == least || most < black) return {0.0, 0.0, grey_coefficient(least)};
-  // 1 - s(x) = s(-x): a light colour is the complement of a dark one, and dark ones are better conditioned.
-  if (most + least > 1.0) return negated(fit(Vec3{1.0} - rgb));
-
   const Samples samples = make_samples();
   const double grey = 0.5 * (most + least);
   Coefficients k{0.0, 0.0, grey_coefficient(grey)};
@@ -135,7 +146,10 @@ SigmoidReflectance grey_sigmoid(double value) {
 }
 
 SigmoidReflectance fit_sigmoid(const LinearRgb& rgb) {
-  return sigmoid::in_nanometres(sigmoid::fit(glm::clamp(rgb, 0.0, 1.0)));
+  const LinearRgb possible = glm::clamp(rgb, 0.0, 1.0);
+  if (possible.x == possible.y && possible.y == possible.z) return grey_sigmoid(possible.x);
+  const sigmoid::Share share = sigmoid::share_of(possible);
+  return sigmoid::reflectance_of(share, sigmoid::fit(share.rgb));
 }
 
 LinearRgb reflected_colour(const SigmoidReflectance& reflectance) {

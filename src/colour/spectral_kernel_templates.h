@@ -82,7 +82,7 @@ struct SpectralKernelsOf {
   static BACKLIGHT_LANES V sigmoid(const SpectrumForm& f, V nm) {
     const V l = clamped(nm);
     const V x = (V(f.c0) * l + V(f.c1)) * l + V(f.c2);
-    return V(0.5) + V(0.5) * x / sqrt(V(1.0) + x * x);
+    return V(f.middle) + V(f.half) * x / sqrt(V(1.0) + x * x);
   }
 
   static BACKLIGHT_LANES V levelled(const SpectrumForm& f, V nm) {

@@ -42,12 +42,15 @@ std::string fault_of(const std::vector<double>& wavelengths, const std::vector<d
   return {};
 }
 
+// Of the exponential in Planck's law: what is left of a double bears 1/nm^5, and D^5.
+constexpr double greatest_log = 600.0;
+
 // The sum over the observer's table of the product of the spectra; `light` null: 1.
 LinearRgb sum_over_film(const Spectrum& radiance, const Spectrum* light) {
   std::array<double, cie::sample_count> nm, value, factor;
   for (std::size_t i = 0; i < nm.size(); ++i) nm[i] = cie::first_nm + static_cast<double>(i);
-  radiance.evaluate(nm.data(), cie::sample_count, value.data());
-  if (light != nullptr) light->evaluate(nm.data(), cie::sample_count, factor.data());
+  radiance.evaluate_light(nm.data(), cie::sample_count, value.data());
+  if (light != nullptr) light->evaluate_light(nm.data(), cie::sample_count, factor.data());
   LinearRgb sum{0.0};
   for (std::size_t i = 0; i < nm.size(); ++i) {
     const auto& w = rec709::film_weights[i];
@@ -68,6 +71,8 @@ void Spectrum::set_shape(const SigmoidReflectance& shape) {
   form_.c0 = shape.c0;
   form_.c1 = shape.c1;
   form_.c2 = shape.c2;
+  form_.middle = shape.middle;
+  form_.half = shape.half;
 }
 
 Spectrum Spectrum::reflectance(const LinearRgb& rgb, std::optional<double> uv, std::optional<double> ir) {
@@ -116,7 +121,7 @@ Spectrum Spectrum::d65() {
 }
 
 Spectrum Spectrum::blackbody(double kelvin) {
-  return blackbody(kelvin, kelvin);
+  return blackbody(kelvin, std::max(kelvin, planck::coldest_kelvin));
 }
 
 Spectrum Spectrum::blackbody(double kelvin, double reference_kelvin) {
@@ -125,6 +130,15 @@ Spectrum Spectrum::blackbody(double kelvin, double reference_kelvin) {
   result.form_.scale = 1.0;
   result.form_.c0 = kelvin;
   result.form_.c1 = planck::log_film_luminance(reference_kelvin);
+  return result;
+}
+
+Spectrum Spectrum::absolute_blackbody(double kelvin) {
+  Spectrum result;
+  result.form_.kind = Kind::blackbody;
+  result.form_.scale = 1.0;
+  result.form_.c0 = kelvin;
+  result.form_.c1 = -planck::log_absolute_luminance();
   return result;
 }
 
@@ -139,7 +153,11 @@ SpectrumOrError Spectrum::tabulated(std::vector<double> wavelengths, std::vector
 
 Spectrum Spectrum::scaled(double factor) const {
   Spectrum result = *this;
-  result.form_.scale *= factor;
+  if (form_.kind == Kind::blackbody && factor > 0.0) {
+    result.form_.c1 -= std::log(factor);  // which has room for any strength of any body
+  } else {
+    result.form_.scale *= factor;
+  }
   return result;
 }
 
@@ -160,6 +178,22 @@ void Spectrum::evaluate(const double* nm, int n, double* out, const SpectralKern
     return;
   }
   for (int i = 0; i < n; ++i) out[i] = form_.scale * interpolate(table_->nm, table_->values, nm[i]);
+}
+
+void Spectrum::evaluate_light(const double* nm, int n, double* out, const SpectralKernels& kernels) const {
+  if (form_.kind != Kind::blackbody || n == 0) return evaluate(nm, n, out, kernels);
+  const double x = planck::second_constant_nm_kelvin / (*std::max_element(nm, nm + n) * form_.c0);
+  Spectrum lowered = *this;
+  lowered.form_.c1 = std::max(form_.c1, -x - greatest_log);
+  lowered.evaluate(nm, n, out, kernels);
+}
+
+void Spectrum::evaluate_light(const double* nm, int n, double* out) const {
+  evaluate_light(nm, n, out, spectral_kernels(InstructionSet::widest));
+}
+
+bool Spectrum::is_black() const {
+  return form_.scale == 0.0;
 }
 
 bool Spectrum::is_grey() const {

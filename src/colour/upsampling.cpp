@@ -8,9 +8,6 @@ namespace {
 
 namespace grid = upsampling_grid;
 
-// A colour with no component above this is black: its coefficients would be too large to square.
-constexpr double black = 1e-30;
-
 // A place between two neighbouring nodes.
 struct Place {
   std::size_t node;
@@ -47,25 +44,16 @@ Vec3 interpolate(std::size_t largest, const Place& z, const Place& third, const 
 }  // namespace
 
 SigmoidReflectance upsample(const LinearRgb& rgb) {
-  LinearRgb colour = glm::clamp(rgb, 0.0, 1.0);
-  const double most = std::max({colour.x, colour.y, colour.z});
-  const double least = std::min({colour.x, colour.y, colour.z});
-  if (most == least || most < black) return grey_sigmoid(least);
-  const bool light = most + least > 1.0;
-  if (light) colour = Vec3{1.0} - colour;
-  const double z = light ? 1.0 - least : most;
-
+  const LinearRgb possible = glm::clamp(rgb, 0.0, 1.0);
+  if (possible.x == possible.y && possible.y == possible.z) return grey_sigmoid(possible.x);
+  const sigmoid::Share share = sigmoid::share_of(possible);
+  const LinearRgb& colour = share.rgb;
+  const double z = std::max({colour.x, colour.y, colour.z});
   const int largest = colour.x == z ? 0 : colour.y == z ? 1 : 2;
   const Place second = place_of_ratio(colour[(largest + 1) % 3] / z);
   const Place third = place_of_ratio(colour[(largest + 2) % 3] / z);
-  const Vec3 stored = interpolate(static_cast<std::size_t>(largest), place_of_brightness(z), third, second);
-  // Below the table: the darkest shape, moved towards black as a grey would be, for which x ~ -1 / (2
-  // sqrt(z)).
-  constexpr double darkest = grid::brightness.front();
-  Vec3 k = stored / std::sqrt(std::max(z, darkest));
-  if (z < darkest) k.z -= 0.5 / std::sqrt(z) - 0.5 / std::sqrt(darkest);
-  if (light) k = -k;
-  return sigmoid::in_nanometres({k.x, k.y, k.z});
+  const Vec3 k = interpolate(static_cast<std::size_t>(largest), place_of_brightness(z), third, second);
+  return sigmoid::reflectance_of(share, {k.x, k.y, k.z});
 }
 
 }  // namespace backlight

@@ -1,10 +1,7 @@
 // Where the table of sigmoid coefficients has its nodes.
 //
 // A colour is reduced, as in Jakob & Hanika 2019, to its largest component z, and the other two divided by z.
-// Here two symmetries smooth the table:
-// - 1 - s(x) = s(-x), so a colour with max + min > 1 is looked up as its complement, with the sign turned;
-// - a dark sigmoid is s(x) ~ 1/(4 x^2), so coefficients times sqrt(z) have a limit at z = 0, and that is
-// stored.
+// Only shares are looked up (sigmoid_fit.h), so that z is between 1/2 and 1.
 #pragma once
 
 #include <array>
@@ -12,20 +9,16 @@
 
 namespace backlight::upsampling_grid {
 
-inline constexpr std::size_t dark_nodes = 4;
-inline constexpr std::size_t eased_nodes = 24;
-inline constexpr std::size_t brightness_nodes = dark_nodes + eased_nodes;
+inline constexpr std::size_t brightness_nodes = 16;
 inline constexpr std::size_t ratio_nodes = 32;
 inline constexpr std::size_t value_count = 3 * brightness_nodes * ratio_nodes * ratio_nodes * 3;
 
-/// Nodes of z: two a decade in the dark, where the coefficients of purples and reds still drift like log z;
-/// then from 0.01 to 1 by a smooth step, denser at both ends.
+/// Nodes of z: from 1/2 to 1 by a smooth step, denser at both ends.
 constexpr std::array<double, brightness_nodes> make_brightness() {
-  std::array<double, brightness_nodes> nodes{1e-4, 3e-4, 1e-3, 3e-3};
-  for (std::size_t k = 0; k < eased_nodes; ++k) {
-    const double u = static_cast<double>(k) / (eased_nodes - 1);
-    const double eased = 0.9 * (u * u * (3.0 - 2.0 * u)) + 0.1 * u;
-    nodes[dark_nodes + k] = 0.01 + 0.99 * eased;
+  std::array<double, brightness_nodes> nodes{};
+  for (std::size_t k = 0; k < brightness_nodes; ++k) {
+    const double u = static_cast<double>(k) / (brightness_nodes - 1);
+    nodes[k] = 0.5 + 0.5 * (0.9 * (u * u * (3.0 - 2.0 * u)) + 0.1 * u);
   }
   nodes.back() = 1.0;
   return nodes;

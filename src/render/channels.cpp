@@ -1,5 +1,6 @@
 #include "channels.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -76,6 +77,14 @@ bool has_light_channels(const Scene& scene) {
   return asked_for(scene, "light");
 }
 
+LinearRgb saturated(const LinearRgb& rgb) {
+  constexpr double most = std::numeric_limits<float>::max();
+  const double greatest = std::max({std::abs(rgb.r), std::abs(rgb.g), std::abs(rgb.b)});
+  const bool finite = std::isfinite(rgb.r) && std::isfinite(rgb.g) && std::isfinite(rgb.b);
+  if (!finite || greatest <= most) return rgb;
+  return glm::clamp(rgb * (most / greatest), -most, most);
+}
+
 PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
     : image_(&image), first_(view * channels_of_one_view(scene).size()) {
   for (const DataChannel& channel : data_channels) {
@@ -86,6 +95,29 @@ PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
   for (std::size_t c = 0; c < 4; ++c) colour_[c] = image.plane(first_ + c).data();
 }
 
+namespace {
+
+// Of a block's red, green and blue as floats; returns how many of its pixels are not finite.
+std::uint64_t saturate_block(float (&values)[4][block_pixels], const TileLight& light, std::size_t first) {
+  const auto is_finite = [](const float(&of)[block_pixels]) {
+    return all_within(of, std::numeric_limits<float>::max());
+  };
+  if (is_finite(values[0]) && is_finite(values[1]) && is_finite(values[2])) return 0;
+  std::uint64_t non_finite = 0;
+  for (std::size_t i = 0; i < block_pixels; ++i) {
+    const LinearRgb rgb = saturated(light.colour(first + i));
+    bool finite = true;
+    for (int c = 0; c < 3; ++c) {
+      values[c][i] = static_cast<float>(0.0 + rgb[c]);
+      finite &= std::isfinite(values[c][i]);
+    }
+    non_finite += finite ? 0 : 1;
+  }
+  return non_finite;
+}
+
+}  // namespace
+
 std::uint64_t PixelWriter::block(std::size_t at, std::size_t width, const TileLight& light,
                                  std::size_t first) const {
   float values[4][block_pixels];
@@ -95,6 +127,7 @@ std::uint64_t PixelWriter::block(std::size_t at, std::size_t width, const TileLi
   }
   const std::uint8_t* const covered = light.covered.data() + first;
   for (std::size_t i = 0; i < block_pixels; ++i) values[3][i] = static_cast<float>(covered[i]);
+  const std::uint64_t non_finite = saturate_block(values, light, first);
   for (std::size_t c = 0; c < 4; ++c) {
     float* row = colour_[c] + at;
     for (const std::size_t first_of_row : {0U, 2U, 8U, 10U, 32U, 34U, 40U, 42U}) {
@@ -106,16 +139,6 @@ std::uint64_t PixelWriter::block(std::size_t at, std::size_t width, const TileLi
       std::memcpy(row + 6, pair + 20, 2 * sizeof(float));
       row += width;
     }
-  }
-  const auto is_finite = [](const float(&of)[block_pixels]) {
-    return all_within(of, std::numeric_limits<float>::max());
-  };
-  if (is_finite(values[0]) && is_finite(values[1]) && is_finite(values[2])) return 0;
-  std::uint64_t non_finite = 0;
-  for (std::size_t i = 0; i < block_pixels; ++i) {
-    const bool finite =
-        std::isfinite(values[0][i]) && std::isfinite(values[1][i]) && std::isfinite(values[2][i]);
-    non_finite += finite ? 0 : 1;
   }
   return non_finite;
 }

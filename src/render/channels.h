@@ -25,22 +25,29 @@ struct PixelData {
   int samples = 0;        ///< that its colour is the mean of
 };
 
+/// A colour of which a component passes the greatest float, darkened until that one is the greatest float:
+/// its hue stays (image_faults.h counts such pixels). Others as they are, infinities and NaNs among them.
+LinearRgb saturated(const LinearRgb& rgb);
+
 /// Writes one view's pixels, by the channel order of layout_of.
 class PixelWriter {
  public:
   PixelWriter(const Scene& scene, Image& image, std::size_t view);
 
   /// Each returns whether all it wrote is finite as a float, or is as it should be: infinitely far, where the
-  /// ray meets nothing. `at`: the image's offset().
+  /// ray meets nothing. `at`: the image's offset(). A colour beyond the greatest float is written as bright as
+  /// a float can be (`saturated`).
   bool colour(std::size_t at, const LinearRgb& rgb, double alpha) const {
-    const float values[4] = {static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b),
-                             static_cast<float>(alpha)};
+    float values[4] = {static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b),
+                       static_cast<float>(alpha)};
     float none = 0.0F;  // a NaN where one of them is not finite
-    for (std::size_t c = 0; c < 4; ++c) {
-      colour_[c][at] = values[c];
-      none += values[c] - values[c];
+    for (const float value : values) none += value - value;
+    if (none != 0.0F) {
+      const LinearRgb held = saturated(rgb);
+      for (int c = 0; c < 3; ++c) values[c] = static_cast<float>(held[c]);
     }
-    return none == 0.0F;
+    for (std::size_t c = 0; c < 4; ++c) colour_[c][at] = values[c];
+    return none == 0.0F || (std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]));
   }
   bool data(int x, int y, const PixelData& data) const;
 

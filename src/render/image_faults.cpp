@@ -53,13 +53,16 @@ ImageFaults faults_of(const Image& image) {
     for (int x = data.x0; x < data.x1; ++x) {
       bool finite = true;
       bool fits = true;
+      bool saturated = false;
       for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
         const float value = image.at(channel, x, y);
         finite &= allowed[channel].is_number(value);
         fits &= !allowed[channel].half || fits_half(value);
+        saturated |= allowed[channel].half && std::abs(value) == std::numeric_limits<float>::max();
       }
       if (!finite && faults.non_finite++ == 0) faults.first_non_finite = {x, y};
       if (finite && !fits) ++faults.beyond_half;
+      if (saturated) ++faults.saturated;
     }
   }
   return faults;

@@ -81,6 +81,7 @@ ExrHeader image_header(const Scene& scene, int wavelengths, const ImageOrigin& o
   if (!scene.film.adaptive) list.push_back({"backlight/samples", std::int32_t{scene.film.samples}});
   list.push_back({"backlight/wavelengths", std::int32_t{wavelengths}});
   list.push_back({"backlight/seed", double(scene.film.seed)});
+  list.push_back({"backlight/exposure", scene.film.exposure});
   list.push_back({"backlight/effects", effects_text(scene.effects)});
   if (!scene.regions.empty()) list.push_back({"backlight/effectsRegions", region_texts(scene)});
   if (!origin.identity.empty()) list.push_back({identity_attribute, origin.identity});

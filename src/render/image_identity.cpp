@@ -24,6 +24,7 @@ void add(std::string& list, const FilmSettings& film) {
   add(list, "tolerance", film.tolerance);
   add(list, "wavelengths", film.wavelengths);
   add(list, "seed", film.seed);
+  add(list, "exposure", film.exposure);
   std::vector<std::string> aovs = film.aovs;
   std::ranges::sort(aovs);  // a file has its channels in alphabetical order
   for (const std::string& aov : aovs) add(list, "aov", aov);

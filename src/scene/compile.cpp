@@ -168,6 +168,7 @@ FilmSettings read_film(ImageValues& values, const ImageRequest& request) {
   film.width = static_cast<int>(size[0]);
   film.height = static_cast<int>(size[1]);
   film.seed = static_cast<unsigned>(table.number("seed"));
+  film.exposure = table.number("exposure");
   if (const Node* aovs = table.node_of("aovs"); aovs != nullptr && aovs->array() != nullptr) {
     for (const Node& name : *aovs->array()) {
       if (name.text() != nullptr) film.aovs.push_back(*name.text());
@@ -289,6 +290,7 @@ std::optional<Scene> SceneCompiler::compile(const ImageRequest& request, Diagnos
   compile_lights(parts);
   compile_sky(parts);
   compile_effects(parts);
+  if (!diagnostics.has_errors()) foresee_brightness(parts);
   if (!diagnostics.has_errors() && images_ == Images::several) return scene;
   forget();
   if (!diagnostics.has_errors()) return scene;

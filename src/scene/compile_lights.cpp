@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 
 #include "compile_parts.h"
@@ -18,8 +19,9 @@ Colour normalised_light(const TableView& table, const Spectrum& spectrum) {
 
 Colour read_colour(const TableView& table, ResourceCache& cache) {
   const std::string_view given = table.one_of({"temperature", "color", "spectrum"});
+  check_absolute(table, given);
   if (given == "temperature") {
-    if (const auto kelvin = table.optional_number("temperature")) return blackbody_light(*kelvin);
+    if (const auto body = read_blackbody(table)) return *body;
   } else if (given == "color") {
     return coloured_light(table.vector("color"));
   } else if (given == "spectrum") {
@@ -41,6 +43,16 @@ void read_strength(const TableView& table, std::string_view key, Light& light) {
   light.variables = table.values().variables;
   light.strength_of_time = *expression;
   light.strength = expression->evaluate(light.variables);
+}
+
+// The light's colour takes the film's exposure; that of a blackbody, whose range passes a double's, takes the
+// strength too: where it flickers, that of the image's time, by which the formula is divided.
+void take_exposure(double exposure, Light& light) {
+  light.colour = times(light.colour, exposure);
+  const bool takes_strength =
+      light.colour.spectrum.is_blackbody() && light.strength > 0.0 && std::isfinite(light.strength);
+  if (takes_strength) light.colour = times(light.colour, light.strength);
+  if (takes_strength != light.flickers) light.strength = 1.0;
 }
 
 void compile_light(Compilation& c, const Node& node) {
@@ -69,6 +81,7 @@ void compile_light(Compilation& c, const Node& node) {
   } else {
     read_strength(table, "intensity", light);
   }
+  take_exposure(c.scene.film.exposure, light);
   c.scene.lights.push_back(std::move(light));
 }
 

@@ -71,7 +71,10 @@ struct FrameBuilder {
 class ObjectCompiler {
  public:
   ObjectCompiler(Compilation& c, const NodeArray& written)
-      : c_(c), written_(written), plan_(c.parts.objects), materials_(c.values, c.cache, c.parts) {}
+      : c_(c),
+        written_(written),
+        plan_(c.parts.objects),
+        materials_(c.values, c.cache, c.parts, c.scene.film.exposure) {}
 
   void run() {
     if (plan_.group_of.empty()) make_plan();

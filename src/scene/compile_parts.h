@@ -32,5 +32,8 @@ void compile_objects(Compilation& c);
 void compile_lights(Compilation& c);
 void compile_sky(Compilation& c);
 void compile_effects(Compilation& c);
+/// Warns of light that will pass what a film value can be; once for all images. After all the others, if
+/// nothing was wrong.
+void foresee_brightness(Compilation& c);
 
 }  // namespace backlight

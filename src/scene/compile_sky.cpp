@@ -10,6 +10,12 @@ namespace {
 
 // Film Y times steradians of a star of magnitude 0: docs/scene-reference.md, [background] stars.
 constexpr double illuminance_of_magnitude_0 = 1e-6;
+// The same in lux, outside the atmosphere: Cox (editor), "Allen's Astrophysical Quantities", 4th edition,
+// 2000.
+constexpr double lux_of_magnitude_0 = 2.54e-6;
+// Film Y of the faintest star in the pixel that it falls on, where nothing else is said: 38 of 255 steps of
+// an sRGB screen.
+constexpr double film_of_faintest = 0.02;
 // Made-up stars go down to what the naked eye sees.
 constexpr double faintest_magnitude = 6.5;
 
@@ -20,9 +26,12 @@ Vec3 direction_of(double right_ascension, double declination) {
   return {std::cos(dec) * std::sin(ra), std::sin(dec), std::cos(dec) * std::cos(ra)};
 }
 
-Star star_of(const Vec3& direction, double magnitude, double b_minus_v, double brightness) {
-  return {direction, temperature_from_bv(b_minus_v),
-          brightness * illuminance_of_magnitude_0 * std::pow(10.0, -0.4 * magnitude)};
+double relative_illuminance(double magnitude) {
+  return std::pow(10.0, -0.4 * magnitude);
+}
+
+Star star_of(const Vec3& direction, double magnitude, double b_minus_v) {
+  return {direction, temperature_from_bv(b_minus_v), relative_illuminance(magnitude)};
 }
 
 // SplitMix64: the output function of Steele, Lea & Flood, "Fast splittable pseudorandom number generators",
@@ -47,7 +56,7 @@ class Random {
 
 // Evenly over the sphere; N(brighter than m) ∝ 10^(m/2); half of them about B-V = 0.1, half about 1.05, as
 // the two humps of the naked-eye stars.
-Star made_up_star(Random& random, double brightness) {
+Star made_up_star(Random& random) {
   const double y = 1.0 - 2.0 * random.next();
   const double longitude = 2.0 * std::numbers::pi * random.next();
   const double magnitude = faintest_magnitude + 2.0 * std::log10(random.next());
@@ -55,37 +64,53 @@ Star made_up_star(Random& random, double brightness) {
   const double spread = random.next() + random.next() - 1.0;
   const double b_minus_v = blue ? 0.1 + 0.3 * spread : 1.05 + 0.5 * spread;
   const double r = std::sqrt(std::max(0.0, 1.0 - y * y));
-  return star_of({r * std::sin(longitude), y, r * std::cos(longitude)}, magnitude, b_minus_v, brightness);
+  return star_of({r * std::sin(longitude), y, r * std::cos(longitude)}, magnitude, b_minus_v);
 }
 
-void add_catalogue(Compilation& c, const TableView& table, std::string_view key, double brightness,
-                   std::vector<Star>& into) {
+void add_catalogue(Compilation& c, const TableView& table, std::string_view key, std::vector<Star>& into) {
   const Node* written = table.node_of(key);
   if (written == nullptr || written->text() == nullptr) return;
   const auto stars = c.cache.stars(resolve_path(c.values, *written));
   if (!stars.ok()) return table.error(key, stars.error());
   for (const CatalogueStar& star : *stars.value()) {
     const Vec3 direction = direction_of(star.right_ascension, star.declination);
-    into.push_back(star_of(direction, star.magnitude, star.b_minus_v, brightness));
+    into.push_back(star_of(direction, star.magnitude, star.b_minus_v));
   }
 }
 
 void read_stars(Compilation& c, const TableView& background, std::vector<Star>& stars) {
   if (background.node_of("stars")->text() != nullptr) {
-    return add_catalogue(c, background, "stars", 1.0, stars);
+    return add_catalogue(c, background, "stars", stars);
   }
   const TableView table = background.table("stars", "background.stars");
-  const double brightness = table.number("brightness");
   const std::string_view given = table.one_of({"file", "count"});
-  if (given == "file") return add_catalogue(c, table, "file", brightness, stars);
+  if (given == "file") return add_catalogue(c, table, "file", stars);
   if (given.empty()) return background.error("stars", "'stars' needs a file or a count");
   Random random(static_cast<std::uint64_t>(table.number("seed")));
   const double count = table.number("count");
-  for (double i = 0; i < count; ++i) stars.push_back(made_up_star(random, brightness));
+  for (double i = 0; i < count; ++i) stars.push_back(made_up_star(random));
+}
+
+// What the stars' illuminances are multiplied with. Without a word about it they are as a dark-adapted eye
+// sees them: the faintest are just visible in a pixel of the middle, whatever solid angle that is.
+double star_scale(const Compilation& c, const TableView& background) {
+  std::optional<double> brightness;
+  bool absolute = false;
+  if (background.node_of("stars")->table() != nullptr) {
+    const TableView table = background.table("stars", "background.stars");
+    brightness = table.optional_number("brightness");
+    absolute = table.boolean("absolute");
+  }
+  if (absolute) return lux_of_magnitude_0 * brightness.value_or(1.0);
+  if (brightness) return illuminance_of_magnitude_0 * *brightness;
+  const Lens& lens = c.scene.camera.lens;
+  return film_of_faintest / relative_illuminance(faintest_magnitude) *
+         pixel_solid_angle(lens, {0.5 * lens.width, 0.5 * lens.height});
 }
 
 void read_stars_key(Compilation& c, const TableView& background) {
   if (!background.has_valid("stars")) return;
+  c.scene.sky.star_scale = c.scene.film.exposure * star_scale(c, background);
   if (c.parts.stars) {
     c.scene.sky.stars = *c.parts.stars;
     return;
@@ -104,19 +129,21 @@ void compile_sky(Compilation& c) {
   Sky& sky = c.scene.sky;
   sky.frame = c.frames.rest_of(table, Vec3{0.0}).frame;
   const double radiance = table.number("radiance");
+  const double exposure = c.scene.film.exposure;
   const std::string_view given = table.one_of({"color", "texture", "temperature"});
+  check_absolute(table, given);
   if (given == "color") {
-    sky.radiance = times(coloured_light(table.vector("color")), radiance);
+    sky.radiance = times(coloured_light(table.vector("color")), radiance * exposure);
   } else if (given == "temperature") {
-    if (const auto kelvin = table.optional_number("temperature")) {
-      sky.radiance = times(blackbody_light(*kelvin), radiance);
-    }
+    if (const auto body = read_blackbody(table)) sky.radiance = times(times(*body, radiance), exposure);
   } else if (given == "texture") {
     sky.texture = read_texture(table, "texture", c.cache);
-    sky.texture_scale = radiance;
+    sky.texture_scale = radiance * exposure;
   }
   sky.given = !given.empty() || table.node_of("stars") != nullptr;
-  sky.emits = radiance > 0.0 && (sky.texture != nullptr || sky.radiance.rgb != LinearRgb{0.0});
+  // A body may be too cold to be seen at rest, and still be seen by who flies towards it.
+  sky.emits =
+      radiance > 0.0 && exposure > 0.0 && (sky.texture != nullptr || !sky.radiance.spectrum.is_black());
   read_stars_key(c, table);
 }
 

@@ -57,6 +57,7 @@ struct CompiledParts {
   MaterialPlan materials;
   ObjectPlan objects;
   std::optional<SharedVector<Star>> stars;
+  bool brightness_is_foreseen = false;
 };
 
 }  // namespace backlight

@@ -25,6 +25,12 @@ KeyTable light() {
                "Whether what stands in its way hides it. Without, no shadow rays are traced for it: a fill "
                "light. An `ambient` light throws none."),
        number("temperature", Nothing{}, "K", "A blackbody's light, of the strength given.", above(0)),
+       boolean("absolute", false,
+               "Beside `temperature`: the strength says how large the blackbody is, and its luminance is "
+               "what Planck's law gives, in cd/m². `intensity` is then the area that a point light shows "
+               "(a ball's is π times its radius squared), `irradiance` the solid angle of a distant one in "
+               "sr (6.8e-5 for the sun), `radiance` the part of the sky that an ambient one fills. "
+               "`exposure` of `[film]` makes film values of it."),
        numbers("color", 3, Nothing{}, "", "Linear red, green, blue (Rec.709), multiplied by the strength.",
                at_least(0)),
        structured("spectrum", {{ValueKind::table, 0, "spectrum"}, {ValueKind::path}},
@@ -67,8 +73,15 @@ KeyTable background() {
                   "An equirectangular image of radiances: the middle of it is seen along +z, the upper edge "
                   "along +y, the right half towards -x, which is to the right of a viewer who looks along "
                   "+z with y up."),
-       number("temperature", Nothing{}, "K", "A blackbody's radiance of film Y 1 at rest.", above(0)),
-       number("radiance", 1.0, "film Y", "Multiplies the three above.", at_least(0)),
+       number("temperature", Nothing{}, "K", "A blackbody's radiance, of film Y 1 at rest unless `absolute`.",
+              above(0)),
+       boolean("absolute", false,
+               "Beside `temperature`: the film Y is the blackbody's luminance in cd/m² times `exposure` of "
+               "`[film]`. So the microwave background, 2.725 K, is black at rest, and glows when it is met "
+               "at γ = 1000."),
+       number("radiance", 1.0, "film Y",
+              "Multiplies the three above; with `absolute` it is an emissivity, without a unit.",
+              at_least(0)),
        structured("stars", {{ValueKind::path}, {ValueKind::table, 0, "background.stars"}},
                   "Stars at infinity, besides. A path is short for `{ file = path }`.")},
       ""};
@@ -94,10 +107,16 @@ KeyTable stars() {
            "fainter, down to magnitude 6.5.",
            whole(1, 1e7)),
        number("seed", 0.0, "", "Another number gives other made-up stars.", whole(0, 4294967295.0)),
-       number("brightness", 1.0, "",
+       number("brightness", Nothing{}, "",
               "With 1, a star of magnitude 0 has an illuminance of 1e-6 film Y · sr: film Y 1 in a pixel of "
-              "1e-6 sr. A magnitude more is a factor 10^-0.4.",
-              at_least(0))},
+              "1e-6 sr. A magnitude more is a factor 10^-0.4. Without it the stars are as an eye in the dark "
+              "sees them, whatever the resolution and the field of view: at rest, one of magnitude 6.5 has "
+              "film Y 0.02 in a pixel as large as the one in the middle, which is just visible, and one of "
+              "magnitude 2.25 has film Y 1.",
+              at_least(0)),
+       boolean("absolute", false,
+               "A star of magnitude 0 has an illuminance of 2.54e-6 lx, so film Y 2.54e-6 cd/m² · sr times "
+               "`exposure` of `[film]`; `brightness`, 1 unless it is given, multiplies it.")},
       ""};
 }
 

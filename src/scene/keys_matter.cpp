@@ -50,8 +50,15 @@ KeyTable material() {
               between(0, 1)),
        number("specular", 0.0, "", "The share of the light that the Phong lobe reflects.", between(0, 1)),
        number("shininess", 50.0, "", "The exponent of the Phong lobe.", above(0)),
-       number("emission", 0.0, "film Y", "Own radiance, added to what is reflected.", at_least(0)),
+       number(
+           "emission", 0.0, "film Y",
+           "Own radiance, added to what is reflected; with `absolute` an emissivity, without a unit, and 1 "
+           "unless it is given.",
+           at_least(0)),
        number("temperature", Nothing{}, "K", "The emission is a blackbody's of this temperature.", above(0)),
+       boolean("absolute", false,
+               "Beside `temperature`: the film Y of the emission is the blackbody's luminance in cd/m² times "
+               "`emission` and `exposure` of `[film]`."),
        numbers("emission_color", 3, Nothing{}, "", "The emission's color, which `emission` multiplies.",
                at_least(0))},
       ""};

@@ -72,6 +72,10 @@ KeyTable film() {
            "wavelengths", Nothing{}, "",
            "Wavelengths that carry a colour where colours shift. Without it 56, or what `tolerance` needs.",
            whole(4, 1024)),
+       number("exposure", 1.0, "",
+              "Multiplies every film value. Of light with `absolute = true` it is the film value of 1 cd/m²: "
+              "6e-10 shows the disc of the sun as about 1, 3e-5 a white wall in the sun. May depend on `t`.",
+              at_least(0)),
        number("seed", 0.0, "", "Another number gives other sample positions.", whole(0, 4294967295.0)),
        {"aovs",
         {{ValueKind::choices}},

@@ -45,6 +45,14 @@ bool are_nanometres(const TableView& table, const SpectrumTable& points) {
   return true;
 }
 
+// Materials that shine bring the film's exposure with them.
+bool exposure_changes(const Description& description, const TimeDependence& dependence) {
+  const Entry* film = find(description.root, "film");
+  const Entry* exposure =
+      film != nullptr && film->node.table() != nullptr ? find(film->node, "exposure") : nullptr;
+  return exposure != nullptr && dependence.changes(exposure->node);
+}
+
 Colour grey(double value) {
   return {Spectrum::constant(value), LinearRgb{value}};
 }
@@ -97,9 +105,18 @@ Colour white_light() {
   return {Spectrum::d65(), LinearRgb{1.0}};
 }
 
-Colour blackbody_light(double kelvin) {
-  const Spectrum spectrum = Spectrum::blackbody(kelvin);
-  return {spectrum, film_colour(spectrum)};
+std::optional<Colour> read_blackbody(const TableView& table) {
+  const auto kelvin = table.optional_number("temperature");
+  if (!kelvin) return std::nullopt;
+  const Spectrum spectrum =
+      table.boolean("absolute") ? Spectrum::absolute_blackbody(*kelvin) : Spectrum::blackbody(*kelvin);
+  return Colour{spectrum, film_colour(spectrum)};
+}
+
+void check_absolute(const TableView& table, std::string_view given) {
+  if (!table.boolean("absolute") || given == "temperature") return;
+  table.error("absolute", "'absolute' is the scale of a blackbody, and there is no temperature",
+              "add temperature, or remove it");
 }
 
 Colour coloured_light(const LinearRgb& rgb) {
@@ -107,15 +124,19 @@ Colour coloured_light(const LinearRgb& rgb) {
 }
 
 Colour times(const Colour& light, double strength) {
-  return {light.spectrum.scaled(strength), strength * light.rgb};
+  const Spectrum spectrum = light.spectrum.scaled(strength);
+  // The colour of a body may be too small or too large for a double until it has its strength.
+  return {spectrum, spectrum.is_blackbody() ? film_colour(spectrum) : strength * light.rgb};
 }
 
-Materials::Materials(ImageValues& values, ResourceCache& cache, CompiledParts& parts)
-    : values_(values),
+Materials::Materials(ImageValues& values, ResourceCache& cache, CompiledParts& parts, double exposure)
+    : exposure_(exposure),
+      values_(values),
       cache_(cache),
       parts_(parts),
       plan_(parts.materials),
       reuses_(plan_.complete && !plan_.changes) {
+  plan_.changes = plan_.changes || exposure_changes(values.description, parts.dependence);
   if (plan_.complete) {
     for (const MaterialPlan::Place& place : plan_.places) {
       if (!reuses_) read(place);
@@ -205,20 +226,22 @@ std::shared_ptr<Checker> Materials::read_checker(const TableView& table) {
 }
 
 void Materials::read_emission(const TableView& table, Material& material) {
-  const double emission = table.number("emission");
+  const bool absolute = table.boolean("absolute");
+  const double emission = absolute && !table.has("emission") ? 1.0 : table.number("emission");
   const std::string_view given = table.one_of({"temperature", "emission_color"});
-  if (!given.empty() && !table.has("emission")) {
+  check_absolute(table, given);
+  if (!given.empty() && !absolute && !table.has("emission")) {
     table.error(given, "'" + std::string(given) + "' is that of the emission, and there is none",
                 "add emission = 1, or remove it");
   }
   if (!(emission > 0.0)) return;
   Colour light = white_light();
   if (given == "temperature") {
-    if (const auto kelvin = table.optional_number("temperature")) light = blackbody_light(*kelvin);
+    if (const auto body = read_blackbody(table)) light = *body;
   } else if (given == "emission_color") {
     light = coloured_light(table.vector("emission_color"));
   }
-  material.emission = std::make_shared<const Colour>(times(light, emission));
+  material.emission = std::make_shared<const Colour>(times(times(light, emission), exposure_));
 }
 
 SharedVector<Material> Materials::finish(CompileCounts& counts) {

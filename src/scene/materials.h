@@ -1,7 +1,9 @@
 // Colours and materials of a description.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "backlight/scene/resources.h"
@@ -24,8 +26,13 @@ std::optional<Spectrum> read_spectrum_key(const TableView& table, ResourceCache&
 
 /// A light of film Y 1 (for a colour: of that colour): D65, a blackbody or a coloured illuminant.
 Colour white_light();
-Colour blackbody_light(double kelvin);
 Colour coloured_light(const LinearRgb& rgb);
+/// The blackbody of the key `temperature`; nothing when it is wrong (and reported). Of film Y 1, or, where
+/// the table says `absolute = true`, of its luminance in cd/m^2.
+std::optional<Colour> read_blackbody(const TableView& table);
+/// Reports `absolute = true` where nothing has a temperature, as `given` says: the key that says what the
+/// light is, or nothing.
+void check_absolute(const TableView& table, std::string_view given);
 /// A light times a strength >= 0.
 Colour times(const Colour& light, double strength);
 
@@ -33,7 +40,8 @@ Colour times(const Colour& light, double strength);
 class Materials {
  public:
   /// Takes over what the images before have found, and leaves in `parts` what those after may.
-  Materials(ImageValues& values, ResourceCache& cache, CompiledParts& parts);
+  /// `exposure`: that of the film, for what shines by itself.
+  Materials(ImageValues& values, ResourceCache& cache, CompiledParts& parts, double exposure);
 
   /// The index of an object's material, a grey of 0.8 by default.
   int of(const TableView& object);
@@ -58,6 +66,7 @@ class Materials {
   static std::shared_ptr<Checker> read_checker(const TableView& table);
   void read_emission(const TableView& table, Material& material);
 
+  double exposure_;
   ImageValues& values_;
   ResourceCache& cache_;
   CompiledParts& parts_;

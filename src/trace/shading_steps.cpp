@@ -18,7 +18,7 @@ LinearRgb texture_reflectance(const Material& material, double u, double v) {
 double strength_at(const Light& light, double own_time, double c, std::vector<double>& variables) {
   if (!light.flickers) return light.strength;
   variables[0] = own_time / c;
-  const double strength = light.strength_of_time.evaluate(variables);
+  const double strength = light.strength_of_time.evaluate(variables) / light.strength;
   return strength < 0.0 ? 0.0 : strength;  // NaN stays, and is counted
 }
 
@@ -37,7 +37,7 @@ LinearRgb shifted_colour(const Spectrum& emission, const WavelengthSet& set, Scr
   if (const std::optional<double> share = emission.share_of_d65()) {
     if (const auto place = set.daylight().at(s.shift)) return *share * place->film();
   }
-  emission.evaluate(shifted_wavelengths(set, s), set.size(), s.lamp.data(), *s.kernels);
+  emission.evaluate_light(shifted_wavelengths(set, s), set.size(), s.lamp.data(), *s.kernels);
   return set.film(s.lamp.data(), *s.kernels);
 }
 
@@ -71,7 +71,7 @@ void fill_lamp(const Spectrum& lamp, DopplerFactor<Rest, Source> doppler, const 
   for (std::size_t i = 0; i < s.wavelengths.size(); ++i) {
     s.at_light[i] = wavelength_at_origin(doppler, nm[i]);
   }
-  lamp.evaluate(s.at_light.data(), set.size(), s.lamp.data(), *s.kernels);
+  lamp.evaluate_light(s.at_light.data(), set.size(), s.lamp.data(), *s.kernels);
 }
 
 }  // namespace

@@ -42,16 +42,16 @@ SeenStar seen(const Star& star, const Hub& hub, const Scene& scene, bool light_d
 }
 
 // Film colour of the star's irradiance in the camera's frame, in film Y times steradians.
-LinearRgb illuminance(const Star& star, DopplerFactor<Camera, Rest> doppler, double gamma,
-                      const Effects& effects, const WavelengthSet& wavelengths, std::vector<double>& work) {
+LinearRgb light_of(const Star& star, double illuminance, DopplerFactor<Camera, Rest> doppler, double gamma,
+                   const Effects& effects, const WavelengthSet& wavelengths) {
   const double flux = flux_factor(doppler, gamma, effects.towards_camera());
-  const Spectrum body = Spectrum::blackbody(star.temperature);
+  const Spectrum body = Spectrum::blackbody(star.temperature).scaled(illuminance);
   const DopplerFactor<Camera, Rest> shift = effects.doppler ? doppler : DopplerFactor<Camera, Rest>{};
-  work.resize(wavelengths.nm().size());
-  for (std::size_t i = 0; i < work.size(); ++i) {
-    work[i] = body.at(wavelength_at_origin(shift, wavelengths.nm()[i])) * wavelength_density_factor(shift);
-  }
-  return star.illuminance * flux * wavelengths.film(work.data());
+  std::vector<double> nm(wavelengths.nm().begin(), wavelengths.nm().end());
+  for (double& at : nm) at = wavelength_at_origin(shift, at);
+  std::vector<double> light(nm.size());
+  body.evaluate_light(nm.data(), wavelengths.size(), light.data());
+  return flux * wavelength_density_factor(shift) * wavelengths.film(light.data());
 }
 
 }  // namespace
@@ -78,7 +78,6 @@ std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const Wav
   const Lens& lens = scene.camera.lens;
   const double gamma = hub.camera_from_sky.gamma();
   std::vector<StarImage> images;
-  std::vector<double> work;
   for (const Star& star : scene.sky.stars) {
     // A region may switch light delay, and so move the star: it is seen where it agrees with itself.
     for (const bool light_delay : {true, false}) {
@@ -89,7 +88,8 @@ std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const Wav
       if (effects.light_delay != light_delay) continue;
       const ImagePoint pixel{std::floor(point->x), std::floor(point->y)};
       const double area = pixel_solid_angle(lens, {pixel.x + 0.5, pixel.y + 0.5});
-      const LinearRgb light = illuminance(star, s.doppler, gamma, effects, wavelengths, work);
+      const LinearRgb light =
+          light_of(star, scene.sky.star_scale * star.illuminance, s.doppler, gamma, effects, wavelengths);
       images.push_back(
           {static_cast<int>(pixel.x), static_cast<int>(pixel.y), s.direction, light / area, light_delay});
     }

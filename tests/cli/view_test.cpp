@@ -1,4 +1,5 @@
 // backlight view: what it chooses by itself, folders, and why pixels are black.
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
@@ -62,7 +63,7 @@ TEST_F(View, KeepsManyDecadesApart) {
   EXPECT_NE(outcome.err.find("shown with --tone drago --exposure "), std::string::npos) << outcome.err;
   const PixelBytes a = shown("a.png");
   EXPECT_EQ(a.samples[3 * 8], 255);
-  // The log-average, of what is within six decades of the greatest, is 10: from a hundredth of that.
+  // From a tenth of white on.
   for (std::size_t i = 3; i < decades.size(); ++i) {
     EXPECT_GT(a.samples[3 * i], a.samples[3 * i - 3] + 3) << decades[i];
   }
@@ -73,6 +74,65 @@ TEST_F(View, KeepsManyDecadesApart) {
   for (std::string word; words >> word;) arguments.push_back(word);
   expect_success(arguments);
   EXPECT_EQ(shown("again.png").samples, a.samples);
+}
+
+// A street at night: nearly all of it is dark, and a few lamps are far beyond white.
+TEST_F(View, ShowsNothingBrighterThanItIsOnTheFilm) {
+  std::vector<float> night(200, 0.002F);
+  for (std::size_t i = 0; i < 20; ++i) night[i] = 0.01F;
+  night[20] = 0.2F;
+  for (const float lamp : {1.5F, 30.0F, 3e3F, 3e5F}) {
+    for (const std::size_t lamps : {1, 2, 5, 30}) {
+      std::fill_n(night.begin() + 21, lamps, lamp);
+      picture("night.exr", night);
+      expect_success({"view", "night.exr", "-o", "night.png"});
+      expect_success({"view", "night.exr", "--tone", "none", "-o", "cut.png"});
+      const PixelBytes shown_by_itself = shown("night.png");
+      const PixelBytes cut = shown("cut.png");
+      for (std::size_t i = 0; i < cut.samples.size(); ++i)
+        EXPECT_LE(shown_by_itself.samples[i], cut.samples[i]) << lamp << " x " << lamps;
+    }
+  }
+}
+
+// What is dark is seen though a lamp is a million times as bright.
+TEST_F(View, ALampDoesNotHideTheNight) {
+  std::vector<float> night(100, 0.02F);
+  for (const float lamp : {4.0F, 4e2F, 4e4F, 4e8F}) {
+    night[0] = lamp;
+    picture("night.exr", night);
+    expect_success({"view", "night.exr"});
+    EXPECT_NEAR(shown("night.png").samples[3], 39, 1) << lamp;  // the sRGB signal of 0.02 is 38.6
+  }
+  // And much light all over is exposed down.
+  std::vector<float> day(100, 3e4F);
+  day[0] = 1e5F;
+  picture("day.exr", day);
+  expect_success({"view", "day.exr"});
+  EXPECT_LT(shown("day.png").samples[3], 220);
+  EXPECT_GT(shown("day.png").samples[3], 150);
+}
+
+TEST_F(View, HardlyChangesAPictureThatIsHardlyBeyondWhite) {
+  picture("a.exr", {0.1F, 0.5F, 0.9F, 1.05F});
+  expect_success({"view", "a.exr"});
+  expect_success({"view", "a.exr", "--tone", "none", "-o", "cut.png"});
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(shown("a.png").samples[i], shown("cut.png").samples[i], 6);
+}
+
+TEST_F(View, IsWhatRenderDoesForItsPng) {
+  write("bright.toml",
+        "[film]\nresolution = [32, 20]\n[camera]\nposition = [0, 0, -3]\n[background]\ncolor = [0.1, 0.2, "
+        "0.3]\n"
+        "[[object]]\nshape = \"sphere\"\nradius = 1\nmaterial = { emission = 40 }\n");
+  const Outcome outcome = run({"bright.toml", "--png"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("bright.png: shown with --tone "), std::string::npos) << outcome.err;
+  expect_success({"view", "bright.exr", "-o", "viewed.png"});
+  EXPECT_EQ(read("bright.png"), read("viewed.png"));
+  const Outcome cut = run({"bright.toml", "--png", "--tone", "none", "-o", "cut.exr"});
+  EXPECT_NE(cut.err.find("pixels beyond white"), std::string::npos) << cut.err;
+  EXPECT_EQ(run({"bright.toml", "--png", "-q", "-o", "quiet.exr"}).err, "");
 }
 
 TEST_F(View, AutomaticExposureShowsTheLogAverageAsMiddleGrey) {

@@ -95,6 +95,7 @@ void add_picture(std::vector<Case>& all) {
   all.push_back({"film.samples", plain_red, {"film.samples=@"}, "2", "3"});
   all.push_back({"film.tolerance", plain_red, {"film.tolerance=@"}, "0.5", "0.03125"});
   all.push_back({"film.wavelengths", plain_red, {"film.wavelengths=@"}, "8", "16"});
+  all.push_back({"film.exposure", plain_red, {"film.exposure=@"}, "0.5", "2"});
   all.push_back({"film.seed", plain_red, {"film.seed=@", "film.samples=2"}, "1", "2"});
   all.push_back({"camera.position", plain_red, {"camera.position=@"}, "[0, 0.5, -5]", "[0.5, 0.5, -4]"});
   all.push_back({"camera.look_at", plain_red, {"camera.look_at=@"}, "[0, 0, 0]", "[0.5, 0.25, 0]"});

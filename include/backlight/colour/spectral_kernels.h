@@ -13,8 +13,10 @@ struct SpectrumForm {
   bool levelled = false;  ///< sigmoid: it has levels of its own outside the visible range
   double scale = 0.0;     ///< on all that follows; a constant's value
   /// Sigmoid and illuminant: as SigmoidReflectance. Blackbody: c0 the temperature in K, c1 the logarithm of
-  /// what Planck's law is divided by.
+  /// what Planck's law is divided by: all of its strength, for which a double may be too small (scale is 1,
+  /// or 0 for none).
   double c0 = 0.0, c1 = 0.0, c2 = 0.0;
+  double middle = 0.5, half = 0.5;  ///< sigmoid and illuminant: as SigmoidReflectance
   /// Sigmoid: the level at 300 nm and below. D65 and illuminant: what joins the blackbody at 360 nm.
   double below = 0.0;
   double above = 0.0;  ///< the same at 890 nm and above, and at 830 nm

@@ -53,18 +53,22 @@ class Spectrum {
   static Spectrum d65();
 
   /// A blackbody of temperature `kelvin` > 0, scaled to film Y = 1 at rest. Below 26 K that scale takes the
-  /// infrared past the largest double; it is kept at the largest double there.
+  /// infrared past the largest double; it is kept at the largest double there (but see evaluate_light).
   static Spectrum blackbody(double kelvin);
 
   /// A blackbody of temperature `kelvin`, scaled as the one of `reference_kelvin` would be: bodies that share
   /// a reference keep their true brightness relative to each other.
   static Spectrum blackbody(double kelvin, double reference_kelvin);
 
+  /// A blackbody of temperature `kelvin` > 0 whose film Y at rest is its luminance in cd/m^2 (docs/physics.md
+  /// equation (9a)). At D times the wavelengths, times D^5, that is the luminance at D times the temperature.
+  static Spectrum absolute_blackbody(double kelvin);
+
   /// Straight lines between the points given; the end values are kept outside. Fails unless there are as many
   /// wavelengths (nm, > 0, ascending) as values (>= 0), at least one, all finite.
   static SpectrumOrError tabulated(std::vector<double> wavelengths, std::vector<double> values);
 
-  /// This spectrum times `factor` >= 0.
+  /// This spectrum times `factor` >= 0. A blackbody's strength is kept as a logarithm.
   [[nodiscard]] Spectrum scaled(double factor) const;
 
   /// The value at `nm` > 0.
@@ -73,6 +77,17 @@ class Spectrum {
   /// out[i] = at(nm[i]) for i < n, to the same bits, whichever kernels do it.
   void evaluate(const double* nm, int n, double* out) const;
   void evaluate(const double* nm, int n, double* out, const SpectralKernels& kernels) const;
+
+  /// The same of a light that is to be summed over these wavelengths. Where a blackbody passes what a double
+  /// holds (e^600, so that the powers of D have room) all its values are lowered by one factor: its colour
+  /// stays, and is the greatest there is.
+  void evaluate_light(const double* nm, int n, double* out, const SpectralKernels& kernels) const;
+  void evaluate_light(const double* nm, int n, double* out) const;
+
+  [[nodiscard]] bool is_blackbody() const { return form_.kind == Kind::blackbody; }
+
+  /// Zero at every wavelength.
+  [[nodiscard]] bool is_black() const;
 
   /// The same at every wavelength: a reflectance that no shift changes.
   [[nodiscard]] bool is_grey() const;

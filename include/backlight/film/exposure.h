@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "backlight/base/result.h"
@@ -29,6 +30,9 @@ class LuminanceCounts {
   /// The share of all pixels with a channel above 1.
   [[nodiscard]] double share_beyond_white() const;
 
+  /// The share of all pixels with a luminance above this one, to an eighth of a stop.
+  [[nodiscard]] double share_above(double luminance) const;
+
  private:
   std::vector<std::uint64_t> counts_;  // by the logarithm of luminance, 1/8 stop each
   std::vector<double> logarithms_;     // their sums
@@ -41,9 +45,27 @@ class LuminanceCounts {
 /// paper has for ordinary scenes. 0 where all is black.
 double automatic_exposure(const LuminanceCounts& counts, double key = 0.18);
 
-/// What to show pictures with where nothing else was said. As they are, if no more than one pixel in a
-/// thousand is beyond white. Else Drago's curve, the log-average luminance exposed to 1 (as that paper has
-/// it) and the greatest shown as white: nothing is cut.
+/// What to show pictures with where nothing else was said. No pixel is ever shown brighter than it is on the
+/// film: what is dark stays dark.
+///
+/// As they are, if no more than one pixel in a thousand is beyond white. Else the greatest luminance is shown
+/// as white, so that nothing is cut, and where the log-average luminance is above 1 it is exposed down to 1.
+/// The curve is Reinhard's, or, where that would show more than one pixel in a hundred as next to white,
+/// Drago's.
 DisplayTransform automatic_transform(const LuminanceCounts& counts);
+
+/// What was asked for of a display transform. What was not follows from the pictures.
+struct DisplayChoice {
+  std::optional<ToneCurve> tone;         ///< none: as automatic_transform() chooses
+  std::optional<double> exposure_stops;  ///< beside what is chosen automatically
+  bool automatic_exposure = false;       ///< by the log-average luminance, which becomes middle grey
+  std::optional<double> white;           ///< none: DisplayTransform's, or the greatest luminance for drago
+
+  /// Whether it depends on the pictures.
+  [[nodiscard]] bool is_automatic() const;
+
+  /// `counts`: of the pictures; looked at only if is_automatic().
+  [[nodiscard]] DisplayTransform transform(const LuminanceCounts& counts) const;
+};
 
 }  // namespace backlight

@@ -100,7 +100,8 @@ inline bool throws_shadows(const Light& light) {
 struct Star {
   Vec3 direction{0.0, 0.0, 1.0};  ///< unit, where it is seen by an observer at rest in the sky's frame
   double temperature = 6500.0;    ///< kelvin, of the blackbody it is
-  double illuminance = 0.0;       ///< film-Y irradiance (film Y times steradians) at rest
+  double illuminance = 0.0;       ///< at rest, relative to a star of magnitude 0; times Sky::star_scale, the
+                                  ///< film-Y irradiance (film Y times steradians)
 };
 
 /// What is at infinity behind everything, at rest in its own frame.
@@ -112,6 +113,7 @@ struct Sky {
   std::shared_ptr<const Texture> texture;  ///< equirectangular, in the frame's axes, or null
   double texture_scale = 1.0;
   SharedVector<Star> stars;
+  double star_scale = 1.0;  ///< on their illuminance
 };
 
 /// One object of the file. Copies made by `repeat` share it.
@@ -176,6 +178,7 @@ struct FilmSettings {
       0.0;  ///< root mean square error asked for, on the scale of shown_value(); 0: none asked for
   bool adaptive = false;  ///< the samples of each pixel are chosen to meet `tolerance`
   int wavelengths = 0;    ///< where colours shift; 0: for the program to choose
+  double exposure = 1.0;  ///< on all film values; the colours of the scene's lights have it already
 };
 
 /// What was made for an image, and what it took over from images before, unchanged.

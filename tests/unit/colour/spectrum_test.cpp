@@ -78,6 +78,91 @@ TEST(Blackbody, ReferenceKeepsTrueBrightness) {
   EXPECT_NEAR(ratio, blackbody_radiance(3000.0, 600.0) / blackbody_radiance(6000.0, 600.0), 1e-13);
 }
 
+// 683 lm/W times the sum over 1 nm of the CIE's y times Planck's law, with 50 digits (mpmath).
+struct Luminance {
+  double kelvin;
+  double candelas_per_square_metre;
+};
+constexpr Luminance luminances[] = {
+    {54.5, 2.5658803578379347e-136}, {300.0, 1.029100942717107e-21}, {800.0, 0.0080895312833102014},
+    {1000.0, 2.6869636943134825},    {2042.0, 598590.02557013636},   {2856.0, 19749726.161122471},
+    {5450.0, 1410856401.292594},     {5772.0, 1843708885.7577571},   {6504.0, 3080221398.3600863},
+    {30000.0, 121563048731.20577},   {1e6, 6413153844757.2488},      {1e9, 6498623426670914.0},
+    {1e12, 6.4987092770166754e+18}};
+
+TEST(AbsoluteBlackbody, HasItsLuminanceInCandelasPerSquareMetre) {
+  for (const Luminance& l : luminances) {
+    const double y = luminance(film_colour(Spectrum::absolute_blackbody(l.kelvin)));
+    EXPECT_NEAR(y / l.candelas_per_square_metre, 1.0, 1e-10) << l.kelvin << " K";
+  }
+  EXPECT_EQ(film_colour(Spectrum::absolute_blackbody(2.725)), LinearRgb{0.0});
+}
+
+// The film colour with D: docs/physics.md equation (8), the powers of D last.
+LinearRgb seen_with(double doppler, const Spectrum& light) {
+  const WavelengthSet& set = wavelength_set(400);
+  std::vector<double> nm(set.nm().begin(), set.nm().end());
+  for (double& at : nm) at *= doppler;
+  std::vector<double> values(nm.size());
+  light.evaluate_light(nm.data(), set.size(), values.data());
+  return std::pow(doppler, 5.0) * set.film(values.data());
+}
+
+// Bodies from 1e-6 to 2e6 times as hot, and strengths of any size: what can be said in a float is right.
+TEST(AbsoluteBlackbody, IsThatOfTheShiftedTemperatureAtAnyShiftAndStrength) {
+  int compared = 0;
+  for (const Luminance& l : luminances) {
+    for (const double doppler : {1e-6, 1e-3, 0.3, 1.0, 20.0, 2e3, 2e6}) {
+      const Spectrum body = Spectrum::absolute_blackbody(l.kelvin / doppler);
+      for (const double strength : {1e-300, 1e-150, 1e-9, 1.0, 1e100, 1e150, 1e300}) {
+        const LinearRgb seen = seen_with(doppler, body.scaled(strength));
+        ASSERT_TRUE(std::isfinite(seen.r) && std::isfinite(seen.g) && std::isfinite(seen.b));
+        const double expected = l.candelas_per_square_metre * strength;
+        if (!(expected > 1e-45 && expected < 3.4e38)) continue;
+        // What 400 wavelengths make of it: the light of 54 K grows by e in 3 nm.
+        const double quadrature = l.kelvin < 200.0 ? 3e-3 : 1e-5;
+        EXPECT_NEAR(luminance(seen) / expected, 1.0, quadrature)
+            << l.kelvin << " " << doppler << " " << strength;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_EQ(compared, 182);
+}
+
+// Of film Y 1 at rest: the coldest and the hottest, seen with any D, and beside each other.
+TEST(Blackbody, IsFiniteAndOfItsColourAtAnyTemperatureAndShift) {
+  for (double kelvin = 1e-3; kelvin <= 1e12; kelvin *= 31.0) {
+    for (double doppler = 1e-6; doppler <= 2e6; doppler *= 7.3) {
+      for (const double strength : {1e-300, 1.0, 1e300}) {
+        const LinearRgb seen = seen_with(doppler, Spectrum::blackbody(kelvin).scaled(strength));
+        ASSERT_TRUE(std::isfinite(seen.r) && std::isfinite(seen.g) && std::isfinite(seen.b));
+        const LinearRgb rest = film_colour(Spectrum::blackbody(kelvin * doppler));
+        if (!(luminance(seen) > 1e-40) || kelvin * doppler < 40.0) continue;
+        for (int c = 0; c < 3; ++c) {
+          EXPECT_NEAR(seen[c] / luminance(seen), rest[c] / luminance(rest), 2e-3 * std::abs(rest[0]))
+              << kelvin << " K with D = " << doppler << ", " << strength;
+        }
+      }
+    }
+  }
+}
+
+TEST(Blackbody, BeyondADoubleKeepsItsColour) {
+  const LinearRgb seen = seen_with(19.949874, Spectrum::blackbody(2.725).scaled(1e-300));
+  const LinearRgb red = seen / seen.r;
+  EXPECT_GT(seen.r, 1e200);
+  EXPECT_LT(red.g, 0.0);
+  EXPECT_LT(std::abs(red.g), 0.2);
+  EXPECT_LT(std::abs(red.b), 0.05);
+}
+
+TEST(Blackbody, StrengthIsKeptAsALogarithm) {
+  EXPECT_NEAR(luminance(film_colour(Spectrum::blackbody(3000.0).scaled(1e-200).scaled(1e200))), 1.0, 1e-10);
+  EXPECT_TRUE(Spectrum::blackbody(3000.0).scaled(0.0).is_black());
+  EXPECT_EQ(Spectrum::blackbody(3000.0).scaled(0.0).at(600.0), 0.0);
+}
+
 TEST(D65, IsTheTable) {
   // CIE 15:2004, table T.1.
   EXPECT_NEAR(Spectrum::d65().at(360.0), 0.466383, 1e-15);
@@ -135,7 +220,10 @@ TEST(Spectrum, BatchesHaveTheSameBits) {
 
 TEST(Spectrum, Scaled) {
   for (const Spectrum& spectrum : one_of_each()) {
-    EXPECT_NEAR(spectrum.scaled(3.0).at(600.0), 3.0 * spectrum.at(600.0), 1e-15 * 3.0 * spectrum.at(600.0));
+    // A blackbody of 3 K has its strength as a logarithm of some thousands.
+    const double rounding = spectrum.is_blackbody() ? 4e-12 : 1e-15;
+    EXPECT_NEAR(spectrum.scaled(3.0).at(600.0), 3.0 * spectrum.at(600.0),
+                rounding * 3.0 * spectrum.at(600.0));
   }
 }
 

@@ -124,9 +124,12 @@ TEST(SceneLights, Types) {
 }
 
 TEST(SceneLights, ColoursAreOfUnitStrength) {
+  // But for a blackbody, which takes its strength into the logarithm of its spectrum.
   const Light hot = light_of("temperature = 2700\nintensity = 300\n");
-  EXPECT_NEAR(luminance(hot.colour.rgb), 1.0, 1e-9);
-  EXPECT_EQ(hot.strength, 300.0);
+  EXPECT_NEAR(luminance(hot.colour.rgb), 300.0, 1e-7);
+  EXPECT_EQ(hot.strength, 1.0);
+  const Light flicker = light_of("temperature = 2700\nintensity = \"300*t\"\n");
+  EXPECT_NEAR(luminance(flicker.colour.rgb), 1.0, 1e-9);
   const Light red = light_of("color = [1, 0.25, 0.125]\n");
   EXPECT_EQ(red.colour.rgb, (LinearRgb{1, 0.25, 0.125}));
   expect_near(film_colour(red.colour.spectrum), red.colour.rgb, 1e-6);
@@ -180,10 +183,66 @@ TEST(SceneSky, StarsOfACatalogue) {
   EXPECT_NEAR(glm::distance(scene.sky.stars[0].direction, Vec3{0, 0, 1}), 0.0, 1e-15);
   EXPECT_NEAR(glm::distance(scene.sky.stars[1].direction, Vec3{1, 0, 0}), 0.0, 1e-15);
   EXPECT_NEAR(glm::distance(scene.sky.stars[2].direction, Vec3{0, 1, 0}), 0.0, 1e-15);
-  EXPECT_NEAR(scene.sky.stars[0].illuminance, 2e-6, 1e-20);
-  EXPECT_NEAR(scene.sky.stars[1].illuminance, 2e-8, 1e-22);
-  EXPECT_NEAR(scene.sky.stars[2].illuminance, 2e-5, 1e-19);
+  EXPECT_NEAR(scene.sky.star_scale, 2e-6, 1e-20);
+  EXPECT_NEAR(scene.sky.stars[0].illuminance, 1.0, 1e-14);
+  EXPECT_NEAR(scene.sky.stars[1].illuminance, 0.01, 1e-16);
+  EXPECT_NEAR(scene.sky.stars[2].illuminance, 10.0, 1e-13);
   EXPECT_EQ(scene.sky.stars[0].temperature, temperature_from_bv(0.65));
+}
+
+// The faintest star at film Y 0.02 in the middle pixel, whatever the picture's size and field of view.
+TEST(SceneSky, StarsAreAsAnEyeSeesThemUnlessToldOtherwise) {
+  for (const char* lens : {"fov = 60\n", "fov = 2\n", "projection = \"fisheye\"\nfov = 180\n",
+                           "projection = \"equirectangular\"\n", "projection = \"mercator\"\n"}) {
+    for (const char* size : {"[64, 48]", "[1920, 1080]"}) {
+      const Scene scene = compiled("[film]\nresolution = " + std::string(size) + "\n" + camera + lens +
+                                   "[background]\nstars = { count = 10 }\n");
+      const Lens& of = scene.camera.lens;
+      const double pixel = pixel_solid_angle(of, {0.5 * of.width, 0.5 * of.height});
+      const double faintest = scene.sky.star_scale * std::pow(10.0, -0.4 * 6.5) / pixel;
+      EXPECT_NEAR(faintest, 0.02, 1e-12) << lens << size;
+    }
+  }
+  const auto scale = [](const std::string& film, const std::string& keys) {
+    return compiled(film + camera + "[background]\nstars = { count = 10" + keys + " }\n").sky.star_scale;
+  };
+  EXPECT_EQ(scale("", ", brightness = 3"), 3e-6);
+  EXPECT_EQ(scale("", ", absolute = true"), 2.54e-6);
+  EXPECT_NEAR(scale("[film]\nexposure = 0.5\n", ", absolute = true, brightness = 4"), 5.08e-6, 1e-20);
+  EXPECT_NEAR(scale("[film]\nexposure = 0.5\n", "") / scale("", ""), 0.5, 1e-15);
+}
+
+// docs/physics.md equation (9a); tests/unit/colour has the luminances.
+TEST(SceneLights, AbsoluteBlackbodiesHaveTheirLuminanceTimesTheExposure) {
+  const double kelvin_2042 = 598590.02557013636;
+  const std::string film = "[film]\nexposure = 1e-5\n";
+  const auto near = [&](const LinearRgb& rgb, double factor) {
+    EXPECT_NEAR(luminance(rgb) / (1e-5 * kelvin_2042 * factor), 1.0, 1e-9);
+  };
+  const std::string body = "temperature = 2042\nabsolute = true\n";
+  near(compiled(film + camera + "[background]\n" + body).sky.radiance.rgb, 1.0);
+  near(compiled(film + camera + "[background]\nradiance = 0.25\n" + body).sky.radiance.rgb, 0.25);
+  near(compiled(film + camera + "[[light]]\nintensity = 3\n" + body).lights[0].colour.rgb, 3.0);
+  near(compiled(film + camera + "[[light]]\ntype = \"ambient\"\n" + body).lights[0].colour.rgb, 1.0);
+  const auto emission = [&](const std::string& keys) {
+    return compiled(film + camera + "[[object]]\nshape = \"plane\"\nmaterial = { " + keys +
+                    "temperature = 2042, absolute = true }\n")
+        .materials[0]
+        .emission->rgb;
+  };
+  near(emission(""), 1.0);
+  near(emission("emission = 0.5, "), 0.5);
+}
+
+TEST(SceneFilm, ExposureMultipliesEveryLight) {
+  const std::string rest = camera +
+                           "[background]\ncolor = [0.5, 0.25, 1]\n[[light]]\nintensity = \"2*t + 1\"\n"
+                           "[[object]]\nshape = \"plane\"\nmaterial = { emission = 4 }\n";
+  const Scene scene = compiled("[film]\nexposure = \"0.5 + t\"\n" + rest);
+  EXPECT_EQ(scene.film.exposure, 0.5);
+  EXPECT_EQ(scene.sky.radiance.rgb, (LinearRgb{0.25, 0.125, 0.5}));
+  EXPECT_EQ(scene.lights[0].colour.rgb, LinearRgb{0.5});
+  EXPECT_EQ(scene.materials[0].emission->rgb, LinearRgb{2.0});
 }
 
 TEST(SceneSky, MadeUpStarsAreEvenAndRepeatable) {
@@ -199,8 +258,8 @@ TEST(SceneSky, MadeUpStarsAreEvenAndRepeatable) {
     EXPECT_NEAR(glm::length(star.direction), 1.0, 1e-15);
     sum += star.direction;
     squares += star.direction * star.direction;
-    if (star.illuminance > 1e-6 * std::pow(10.0, -0.4 * 4.5)) ++brighter;
-    EXPECT_GE(star.illuminance, 1e-6 * std::pow(10.0, -0.4 * 6.5) * (1 - 1e-12));
+    if (star.illuminance > std::pow(10.0, -0.4 * 4.5)) ++brighter;
+    EXPECT_GE(star.illuminance, std::pow(10.0, -0.4 * 6.5) * (1 - 1e-12));
   }
   // Each component has variance 1/3, its square 4/45: five standard deviations of the means.
   for (int i = 0; i < 3; ++i) {
