@@ -37,7 +37,8 @@ struct Part {
 };
 
 Imf::Header header_of(const Part& part) {
-  Imf::Header header(part.width, size);
+  Imf::Header header(size, size);
+  header.dataWindow().max.x = part.width - 1;
   header.setName(part.name);
   header.setType(Imf::SCANLINEIMAGE);
   header.channels().insert(part.channel, Imf::Channel(part.number ? Imf::UINT : Imf::FLOAT));
@@ -147,7 +148,7 @@ TEST_F(CompareParts, MatchesThemByName) {
          {"part 'right': missing: there is a reference, but no new part", "part 'middle': extra"});
   expect(1, {"compare", "a.exr", "less.exr"}, {"part 'right': missing"});
   expect(1, {"compare", "less.exr", "a.exr"}, {"part 'right': extra"});
-  expect(2, {"compare", "a.exr", "wide.exr"}, {"part 'right'", "the sizes differ"});
+  expect(2, {"compare", "a.exr", "wide.exr"}, {"part 'right'", "the data windows differ"});
   expect(2, {"compare", "a.exr", "channel.exr"}, {"part 'right'", "the channels differ"});
 }
 
