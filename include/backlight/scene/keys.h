@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "backlight/base/variant_guard.h"
+
 namespace backlight {
 
 enum class ValueKind {
@@ -56,7 +58,8 @@ struct Range {
 struct Nothing {};
 /// The key must be written.
 struct Required {};
-using DefaultValue = std::variant<Nothing, Required, bool, double, std::vector<double>, std::string>;
+using DefaultValue =
+    std::variant<Nothing, Required, bool, double, std::vector<double>, std::string, VariantGuard>;
 
 struct Key {
   std::string_view name;
