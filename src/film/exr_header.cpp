@@ -38,6 +38,7 @@ struct AttributeInserter {
   void operator()(const Vec3& value) const {
     header.insert(name, Imf::V3dAttribute(Imath::V3d(value.x, value.y, value.z)));
   }
+  void operator()(const VariantGuard& /*never*/) const {}
   void operator()(const std::vector<std::string>& value) const {
     header.insert(name, Imf::StringVectorAttribute(value));
   }

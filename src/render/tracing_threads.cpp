@@ -1,7 +1,6 @@
 #include "backlight/render/tracing_threads.h"
 
 #include <algorithm>
-#include <system_error>
 #include <utility>
 
 namespace backlight {
@@ -47,7 +46,7 @@ TracingThreads::TracingThreads(int threads, const std::atomic<bool>& stop)
   for (int i = 0; i < std::max(threads, 1); ++i) {
     try {
       threads_.emplace_back([this, i] { work(i); });
-    } catch (const std::system_error&) {
+    } catch (const std::exception&) {  // no thread, or no memory for one
       break;
     }
   }

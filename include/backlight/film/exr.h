@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "backlight/base/result.h"
+#include "backlight/base/variant_guard.h"
 #include "backlight/base/vector.h"
 #include "backlight/film/image.h"
 
@@ -21,7 +22,8 @@ namespace backlight {
 
 /// The types of header attribute that are written, and kept when read: EXR's int, float, double, string, v3d
 /// and stringvector.
-using ExrValue = std::variant<std::int32_t, float, double, std::string, Vec3, std::vector<std::string>>;
+using ExrValue =
+    std::variant<std::int32_t, float, double, std::string, Vec3, std::vector<std::string>, VariantGuard>;
 
 /// The value as a reader would write it: numbers with all their digits, lists with commas between.
 std::string text_of(const ExrValue& value);

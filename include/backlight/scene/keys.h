@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "backlight/base/variant_guard.h"
+
 namespace backlight {
 
 enum class ValueKind {
@@ -66,7 +68,8 @@ inline constexpr double greatest_magnitude = 1e50;
 struct Nothing {};
 /// The key must be written.
 struct Required {};
-using DefaultValue = std::variant<Nothing, Required, bool, double, std::vector<double>, std::string>;
+using DefaultValue =
+    std::variant<Nothing, Required, bool, double, std::vector<double>, std::string, VariantGuard>;
 
 struct Key {
   std::string_view name;
