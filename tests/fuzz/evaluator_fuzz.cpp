@@ -252,8 +252,12 @@ void check_searches(const ImplicitFormula& f, const LinePiece& line) {
     const double from = line.from + i * step;
     const double to = from + step;
     if (sign_at(tape, line, from) * sign_at(tape, line, to) >= 0) continue;
-    if (enclose(tape, {line.origin, line.direction}, from, to).value.continuity != Continuity::continuous)
+    // Beyond doubles nothing is claimed.
+    const Interval between = enclose(tape, {line.origin, line.direction}, from, to).value;
+    if (between.continuity != Continuity::continuous || std::isinf(between.lower) ||
+        std::isinf(between.upper)) {
       continue;
+    }
     bool known = false;
     for (const Root& root : roots) known = known || (root.lower <= to && root.upper >= from);
     require(known, "a root is missed by the walk");
