@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the fuzzers of expressions and of solids with clang and the sanitizers, and runs one after the other.
+# Builds the fuzzers of expressions, of their evaluators and of solids with clang and the sanitizers, and runs one after the other.
 #
 #   scripts/fuzz.sh [SECONDS]        (of each; default: 20)
 #
@@ -12,9 +12,9 @@ seconds=${1:-20}
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "scripts/fuzz.sh: '$seconds' is not a number of seconds" >&2; exit 2; }
 scripts/install.sh build test ci
 cmake --preset clang -B build/fuzz -DBACKLIGHT_FUZZ=ON -DBACKLIGHT_SANITIZE=address >/dev/null
-cmake --build build/fuzz --target expression_fuzz solid_fuzz
+cmake --build build/fuzz --target expression_fuzz evaluator_fuzz solid_fuzz
 mkdir -p build/fuzz/found
-for fuzzer in expression solid; do
+for fuzzer in expression evaluator solid; do
   mkdir -p build/fuzz/inputs/$fuzzer
   program=$(find build/fuzz -name ${fuzzer}_fuzz -type f -perm -u+x -print -quit)
   "$program" -max_total_time="$seconds" -max_len=200 -artifact_prefix=build/fuzz/found/ -print_final_stats=1 \

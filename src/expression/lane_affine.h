@@ -202,20 +202,24 @@ BACKLIGHT_LANES LaneAffine<V> library(Operation operation, LaneAffine<V> a, Lane
 }
 
 template <class V>
-BACKLIGHT_LANES bool too_far_for_waves(LaneAffine<V> a) {
-  return bits(~(magnitude(a.centre) <= V(largest_wave_argument))) != 0;
+BACKLIGHT_LANES auto near_enough_for_waves(LaneAffine<V> a) {
+  return magnitude(a.centre) <= V(largest_wave_argument);
 }
 template <class V>
 BACKLIGHT_LANES LaneAffine<V> sin(LaneAffine<V> a) {
-  if (too_far_for_waves(a)) return library(Operation::sin, a, a);
-  const Waves<V> at = waves(a.centre);
-  return wave_about(at.sine, at.cosine, a);
+  return wave(
+      Operation::sin, a, near_enough_for_waves(a), [](LaneAffine<V> near) __attribute__((always_inline)) {
+        const Waves<V> at = waves(near.centre);
+        return wave_about(at.sine, at.cosine, near);
+      });
 }
 template <class V>
 BACKLIGHT_LANES LaneAffine<V> cos(LaneAffine<V> a) {
-  if (too_far_for_waves(a)) return library(Operation::cos, a, a);
-  const Waves<V> at = waves(a.centre);
-  return wave_about(at.cosine, -at.sine, a);
+  return wave(
+      Operation::cos, a, near_enough_for_waves(a), [](LaneAffine<V> near) __attribute__((always_inline)) {
+        const Waves<V> at = waves(near.centre);
+        return wave_about(at.cosine, -at.sine, near);
+      });
 }
 
 // The functions that are computed one lane at a time.

@@ -163,9 +163,21 @@ struct BoundsOfWaves {
   LaneBounds<V> sine, cosine;
 };
 
+/// A function with a kernel for arguments that are near enough, and by the library for those that are not:
+/// lane by lane, so that no lane depends on the others. `near` says which lanes are which.
+template <class N, class Mask, class Kernel>
+BACKLIGHT_LANES N wave(Operation operation, N a, Mask near, const Kernel& kernel) {
+  if (bits(~near) == 0) return kernel(a);
+  return select(near, kernel(select(near, a, N(0.0))), library(operation, a, a));
+}
+
 template <class V>
-BACKLIGHT_LANES bool too_far_for_waves(LaneBounds<V> a) {
-  return bits(~(larger(magnitude(a.minus_lower), magnitude(a.upper)) <= V(largest_wave_argument))) != 0;
+BACKLIGHT_LANES LaneBounds<V> select(typename V::Mask mask, LaneBounds<V> a, LaneBounds<V> b) {
+  return {select(mask, a.minus_lower, b.minus_lower), select(mask, a.upper, b.upper)};
+}
+template <class V>
+BACKLIGHT_LANES auto near_enough_for_waves(LaneBounds<V> a) {
+  return larger(magnitude(a.minus_lower), magnitude(a.upper)) <= V(largest_wave_argument);
 }
 
 template <class V>
@@ -189,11 +201,15 @@ BACKLIGHT_LANES BoundsOfWaves<V> bounds_of_waves(LaneBounds<V> a) {
 
 template <class V>
 BACKLIGHT_LANES LaneBounds<V> sin(LaneBounds<V> a) {
-  return too_far_for_waves(a) ? library(Operation::sin, a, a) : bounds_of_waves(a).sine;
+  return wave(
+      Operation::sin, a, near_enough_for_waves(a),
+      [](LaneBounds<V> near) __attribute__((always_inline)) { return bounds_of_waves(near).sine; });
 }
 template <class V>
 BACKLIGHT_LANES LaneBounds<V> cos(LaneBounds<V> a) {
-  return too_far_for_waves(a) ? library(Operation::cos, a, a) : bounds_of_waves(a).cosine;
+  return wave(
+      Operation::cos, a, near_enough_for_waves(a),
+      [](LaneBounds<V> near) __attribute__((always_inline)) { return bounds_of_waves(near).cosine; });
 }
 
 /// Plain numbers over lanes.
@@ -265,16 +281,24 @@ BACKLIGHT_LANES LaneNumber<V> library(Operation operation, LaneNumber<V> a, Lane
 }
 
 template <class V>
-BACKLIGHT_LANES bool too_far_for_waves(LaneNumber<V> a) {
-  return bits(~(magnitude(a.v) <= V(largest_wave_argument))) != 0;
+BACKLIGHT_LANES LaneNumber<V> select(typename V::Mask mask, LaneNumber<V> a, LaneNumber<V> b) {
+  return LaneNumber<V>(select(mask, a.v, b.v));
+}
+template <class V>
+BACKLIGHT_LANES auto near_enough_for_waves(LaneNumber<V> a) {
+  return magnitude(a.v) <= V(largest_wave_argument);
 }
 template <class V>
 BACKLIGHT_LANES LaneNumber<V> sin(LaneNumber<V> a) {
-  return too_far_for_waves(a) ? library(Operation::sin, a, a) : LaneNumber<V>(waves(a.v).sine);
+  return wave(
+      Operation::sin, a, near_enough_for_waves(a),
+      [](LaneNumber<V> near) __attribute__((always_inline)) { return LaneNumber<V>(waves(near.v).sine); });
 }
 template <class V>
 BACKLIGHT_LANES LaneNumber<V> cos(LaneNumber<V> a) {
-  return too_far_for_waves(a) ? library(Operation::cos, a, a) : LaneNumber<V>(waves(a.v).cosine);
+  return wave(
+      Operation::cos, a, near_enough_for_waves(a),
+      [](LaneNumber<V> near) __attribute__((always_inline)) { return LaneNumber<V>(waves(near.v).cosine); });
 }
 
 // The functions that the library computes, one lane at a time, for every number type over lanes: name(a), and

@@ -164,10 +164,13 @@ Key length(std::string_view name, DefaultValue value, std::string_view meaning, 
 
 Key unresolved(
     const char* meaning =
-        "What becomes of a root that cannot be isolated to full precision: one of even multiplicity, where "
-        "the surface is only touched, or so near to another that rounding hides which. `take`: it is "
-        "seen; `skip`: the ray goes on. They are counted in `--stats` and shown by the channel "
-        "`unresolved`.") {
+        "What becomes of a root that is certain to be one, or within rounding of one, but is not crossed in "
+        "one "
+        "place: of even multiplicity, where the surface is only touched, or so near to another that rounding "
+        "hides which. `take`: it is seen; `skip`: the ray goes on. They are counted in `--stats` and shown "
+        "by "
+        "the channel `unresolved`. A pole, a jump, the edge of a domain, or what does not come down to 0 "
+        "continuously, is never a surface.") {
   return choice("unresolved", std::string("take"), {"take", "skip"}, meaning);
 }
 

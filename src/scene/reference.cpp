@@ -21,7 +21,7 @@ A scene is a TOML 1.0 file. `backlight check SCENE.toml` says whether it is righ
 - **Any number may be an expression** in a string: `"2*t + sin(pi*t)"`. It may use `t` (the scene time of the image in
   seconds), `frame` (its number in the animation), the parameters of `[params]`, the functions sin cos tan asin acos
   atan atan2 sinh cosh tanh exp log sqrt cbrt abs floor min max pow mod clamp (radians, as in C), `^` for powers, and
-  `pi` and `e`.
+  `pi` and `e`. `mod(a, b)` is a - b floor(a/b), with the sign of b: mod(-1, 3) is 2, unlike C's fmod.
 - Colors are linear Rec.709. *Film Y* is the luminance of a film value; white is 1.
 - Mistakes are errors, reported all together: unknown keys, wrong types, duplicate names, references to nothing,
   speeds of c and more, numbers that are not finite. A definition of the scene file itself that nothing uses gives a

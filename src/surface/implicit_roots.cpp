@@ -196,7 +196,7 @@ Root RootWalk::polished(double low, double high, int sign_low) const {
     const Dual f = f_.expression().evaluate(variables);
     if (f.value == 0.0) break;
     ((f.value < 0.0) == (sign_low < 0) ? low : high) = t;
-    double step = f.value / f.derivative;
+    double step = std::isinf(f.derivative) ? infinity : f.value / f.derivative;  // halved where there is none
     double next = t - step;
     if (!(next > low && next < high && 2.0 * std::abs(step) <= last_step)) {
       if (std::abs(step) <= 0.25 * epsilon * std::abs(t)) break;
@@ -260,12 +260,19 @@ bool RootWalk::everywhere(double to, bool PointValue::*what) {
          at(a_ + 0.8090169943749475 * length).*what;
 }
 
+/// Whether the cell [a_, to] lies close behind a stretch that is hidden, and f leaves zero little by little.
+bool RootWalk::beside_zone(double to) const {
+  const double core = zone_core_ - zone_start_;
+  return in_zone_ && to - a_ <= 0.25 * core && a_ - zone_core_ < core &&
+         RootEvidence(f_, line_).rises_slowly(zone_core_, to);
+}
+
 /// What is to be done about a cell of which nothing could be said.
-RootWalk::Outlook RootWalk::outlook(double to, bool beside_zone) {
+RootWalk::Outlook RootWalk::outlook(double to, bool fine) {
   const double length = to - a_;
   const bool smallest = !(length > smallest_cell(a_, to));
   if (continuity_ == Continuity::continuous) {
-    const bool hidden = smallest || beside_zone || everywhere(to, &PointValue::hidden);
+    const bool hidden = smallest || fine || everywhere(to, &PointValue::hidden);
     return hidden ? Outlook::zone : Outlook::divide;
   }
   // A pole, a jump or the edge of a domain is no surface, nor is a piece on which f may be defined nowhere.
@@ -321,8 +328,7 @@ bool RootWalk::find(Root& root) {
     if (end_ - to < std::min(0.5 * step_, smallest_cell(to, end_))) to = end_;
     count_cell();
     const double length = to - a_;
-    const bool fine =
-        in_zone_ && length <= 0.25 * (zone_core_ - zone_start_) && a_ - zone_core_ < zone_core_ - zone_start_;
+    const bool fine = beside_zone(to);
     const double begin = a_;
     const Verdict verdict = try_cell(to, root);
     if (verdict == Verdict::crossing) {

@@ -147,7 +147,8 @@ class RootWalk {
   Verdict try_cell(double to, Root& root);
   bool meet_crossing(Root& root);
   enum class Outlook { divide, zone, drop };
-  Outlook outlook(double to, bool beside_zone);
+  Outlook outlook(double to, bool fine);
+  [[nodiscard]] bool beside_zone(double to) const;
   bool everywhere(double to, bool PointValue::*what);
   void count_cell();
 

@@ -22,7 +22,8 @@ struct NewtonBracket {
     const double width = end - begin;
     ((value > 0.0) == positive_before ? begin : end) = t;
     if (value == 0.0) return true;
-    double next = t - value / slope;
+    // Where the slope is infinite there is no step: the bracket is halved.
+    double next = std::isinf(slope) ? std::numeric_limits<double>::infinity() : t - value / slope;
     const double off = std::abs(next - t);
     if (off <= 0.03125 * least || bend * off * off <= 0x1p-10 * least) {
       t = std::clamp(next, begin, end);

@@ -16,6 +16,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double growth = 8.0;
 /// f may be zero where it is less than this many times its rounding.
 constexpr double hiding = 8.0;
+/// At a face f gets this many times larger within a small part of the stretch on which it is hidden.
+constexpr double steep = 64.0;
 /// How far beside a place f is looked at, in resolutions or in lengths of the stretch that is hidden.
 constexpr double next = 16.0;
 /// Below this the numbers of a formula have run out of the range of doubles.
@@ -112,8 +114,12 @@ bool RootEvidence::comes_to_zero(double from, double to) const {
 bool RootEvidence::leaves_at_once(double end, int side, double length) const {
   const double distance = 0x1p-10 * length;
   if (distance < next * resolution(end)) return false;
-  const Interval there = at_double(end + side * distance);
-  return is_continuous(there) && least(there) > 0.0 && least(there) >= 64.0 * most(at_double(end));
+  return !rises_slowly(end, end + side * distance);
+}
+
+bool RootEvidence::rises_slowly(double from, double to) const {
+  const Interval there = at_double(to);
+  return !is_continuous(there) || !(least(there) > 0.0 && least(there) >= steep * most(at_double(from)));
 }
 
 /// Whether f is all but straight over the piece, which is then where its slope has a sign.

@@ -29,6 +29,9 @@ class RootEvidence {
   /// as about a double root. `side`: -1 before it, 1 behind it.
   [[nodiscard]] bool leaves_at_once(double end, int side, double length) const;
 
+  /// Whether f is not much further from zero at the second place than at the first.
+  [[nodiscard]] bool rises_slowly(double from, double to) const;
+
   /// Whether f goes straight through zero on [from, to], though it has a kink there: of a certain slope on
   /// either side, with the same sign.
   [[nodiscard]] bool goes_through(double from, double to) const;

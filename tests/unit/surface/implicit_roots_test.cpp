@@ -46,12 +46,23 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Known{"x^2 + y^2 + z^2 - 1", {-1.0, 1.0}}, Known{"x*(x-1)*(x+1)", {-1.0, 0.0, 1.0}},
                     Known{"(x-0.3)*(x-0.3-1e-12)", {0.3, 0.3 + 1e-12}},
                     Known{"sin(4*x)", {-0.5 * pi, -0.25 * pi, 0.0, 0.25 * pi, 0.5 * pi}},
-                    Known{"cbrt(x)", {0.0}}, Known{"log(x)", {1.0}}, Known{"sqrt(x) - 0.5", {0.25}},
-                    Known{"exp(1000*x) - 2", {std::log(2.0) / 1000.0}}, Known{"abs(x) - 0.5", {-0.5, 0.5}},
-                    Known{"max(x, -x-1)", {-1.0, 0.0}}, Known{"mod(x, 1) - 0.5", {-1.5, -0.5, 0.5, 1.5}},
+                    Known{"cbrt(x)", {0.0}}, Known{"cbrt(1 + cbrt(2.5*x))", {-0.4}}, Known{"log(x)", {1.0}},
+                    Known{"sqrt(x) - 0.5", {0.25}}, Known{"exp(1000*x) - 2", {std::log(2.0) / 1000.0}},
+                    Known{"abs(x) - 0.5", {-0.5, 0.5}}, Known{"max(x, -x-1)", {-1.0, 0.0}},
+                    Known{"mod(x, 1) - 0.5", {-1.5, -0.5, 0.5, 1.5}},
                     Known{"floor(x) + 0.5 - x", {-1.5, -0.5, 0.5, 1.5}}, Known{"1/x - 4", {0.25}},
                     Known{"atan2(x, 1)", {0.0}}, Known{"x^33 - 1", {1.0}},
-                    Known{"asin(x) - 1", {std::sin(1.0)}}));
+                    Known{"asin(x) - 1", {std::sin(1.0)}},
+                    // Kinks of min, max and abs are no difficulty, nor operands that are alike.
+                    Known{"max(x, x) - 0.1", {0.1}}, Known{"min(x, 2*x)", {0.0}},
+                    Known{"max(x - 0.3, 3*(x - 0.3))", {0.3}}, Known{"2*x + abs(x) - 0.5*abs(x)", {0.0}},
+                    Known{"max(abs(x), max(abs(x), abs(y))) - 0.5", {-0.5, 0.5}},
+                    Known{"clamp(x, -0.5, 0.5) - 0.25", {0.25}},
+                    // Behind and in front of what is no root.
+                    Known{"sin(6*x)/(6*x) - 0.5", {-0.3159157111723302, 0.3159157111723302}},
+                    Known{"x/abs(x) - x + 0.5", {-0.5, 1.5}},
+                    Known{"x^x - 0.8", {0.09464971086492496, 0.7395336500107104}},
+                    Known{"exp(1000*x) - exp(1000*(0.25 - x))", {0.125}}));
 
 class NoRoots : public testing::TestWithParam<std::string> {};
 
@@ -64,7 +75,19 @@ INSTANTIATE_TEST_SUITE_P(Formulas, NoRoots,
                          testing::Values("1/x", "1/x^3", "1/(x-0.3)", "x^2 + 1e-20", "x^2 + 1e-300",
                                          "floor(x) + 0.5", "x/abs(x)", "log(x) + 5/x^2", "atan2(x, -1)",
                                          "sqrt(x) + 1e-9", "mod(x, 1) + 1e-9", "sqrt(-1 - x^2)",
-                                         "tan(x + pi/2)*0 + 1", "asin(x + 3.5) - 1"));
+                                         "tan(x + pi/2)*0 + 1", "asin(x + 3.5) - 1",
+                                         // 0/0, in bounds as wide as they may be next to it
+                                         "sin(6*x)/(6*x) - 1.5", "(x-0.2)/(x-0.2) - 0.5", "x/abs(x) - 0.5",
+                                         "(x-0.3)/abs(x-0.3) + 0.25", "(1-cos(x))/x^2 - 0.8",
+                                         // jumps, poles and edges, some at the ends of the line
+                                         "mod(x, 0.5) - 0.7", "floor(x) - 0.5", "floor(-x) + 0.5",
+                                         "tan(2*x)*0 + 1", "abs(tan(x)) + 0.1",
+                                         "atan2(x, -0.5)/3 + 2*x/abs(x)", "sqrt(x) + 0.1", "log(x) - 5",
+                                         "acos(x) + 0.1", "x^0.5 + 0.2", "mod(x, 0.5)", "1/x^2", "x^x + 0.1",
+                                         "floor(x)*0 + 0.3*x/x",
+                                         // beyond doubles there is no value
+                                         "exp(1000*(x + 3)) - exp(1000*(x + 3.5))",
+                                         "exp(1000*x)/exp(1000*x) - 2", "sin(exp(1000*(x+3)))"));
 
 struct Touching {
   std::string f;
@@ -90,6 +113,43 @@ INSTANTIATE_TEST_SUITE_P(Formulas, MultipleRoots,
                          testing::Values(Touching{"(x^2-1)^2", {-1.0, 1.0}, 2e-15},
                                          Touching{"x^3", {0.0}, 1e-20}, Touching{"abs(x-0.5)", {0.5}, 1e-15},
                                          Touching{"x^4-2*x^2+1", {-1.0, 1.0}, 3e-7}));
+
+// f is 0 all the way through two boxes that touch, along the seam: its ends are faces.
+TEST(RootWalk, AStretchOfRootsHasTwoFaces) {
+  const ImplicitFormula boxes =
+      formula("min(max(abs(x), abs(y-0.5), abs(z))-0.5, max(abs(x), abs(y+0.5), abs(z))-0.5)");
+  const std::vector<Root> found = all_roots(boxes, {{0.1, 0, 0, 0}, {1, 0, 0, 0}}, -2.0, 2.0);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found[0].t, -0.6, 1e-15);
+  EXPECT_NEAR(found[1].t, 0.4, 1e-15);
+  for (const Root& root : found) EXPECT_EQ(root.kind, RootKind::crossing);
+  EXPECT_EQ(found[0].sign_before, 1);
+  EXPECT_EQ(found[1].sign_after, 1);
+}
+
+// Numbers that underflow say nothing of f.
+TEST(RootWalk, NothingIsInventedWhereDoublesUnderflow) {
+  const ImplicitFormula f = formula("exp(1000*x) - exp(1000*y)");
+  EXPECT_TRUE(all_roots(f, {{-1, -1.5, 0, 0}, {1, 0, 0, 0}}, -1.0, 0.9).empty());
+}
+
+// A search ends soon where f is nowhere defined, or rounding hides whether it is.
+TEST(RootWalk, WorkIsBoundedWhereFIsUndefined) {
+  for (const char* text :
+       {"x^x - 0.8", "asin(x/abs(x)) - y", "sqrt(x - x) + y", "y - tan(2*x)", "y - floor(x)",
+        "exp(1000*(x+3)) - exp(1000*(y+3))", "log(-1 - x^2)", "x^y - 0.5", "y - mod(x, 0.5)"}) {
+    const ImplicitFormula f = formula(text);
+    RootWalk walk(f, {{0.013, 0.27, 0.1, 0}, {0.8, 0.6, 0, 0}}, -2.0, 2.0);
+    for (Root root; walk.next(root);) {
+    }
+    EXPECT_LE(walk.work().cells + walk.work().points, 2000U) << text;
+  }
+  const ImplicitFormula endless = formula("sin(1/x)*sin(1/y)");
+  RootWalk walk(endless, {{1e-3, -1e-3, 0, 0}, {0.6, 0.8, 0, 0}}, -2.0, 2.0);
+  for (Root root; walk.next(root);) {
+  }
+  EXPECT_LE(walk.work().cells, 40000U);
+}
 
 TEST(RootWalk, SignsTellTouchingFromCrossing) {
   EXPECT_EQ(along_x("(x-0.3)^2")[0].sign_before, 1);
