@@ -31,6 +31,8 @@ class SceneFiles : public testing::Test {
   }
   [[nodiscard]] ReadResult read(const std::string& name) const { return read_scene(folder_ / name); }
 
+  [[nodiscard]] auto read_catalogue(const std::string& name) const { return read_stars(folder_ / name); }
+
   Scene scene(const std::string& name) const {
     ReadResult result = read(name);
     ResourceCache cache;
@@ -204,7 +206,7 @@ TEST_F(SceneFiles, TablesOfNumbersAreReadAsSpreadsheetsWriteThem) {
         "\xEF\xBB\xBFright_ascension;declination;magnitude;b_minus_v\r\n1;2;3;0.5\r\n;;;\r\n\r\n"s,
         "\"right_ascension\"\t\"declination\"\t\"magnitude\"\t\"b_minus_v\"\r1\t2\t\"3\"\t0.5\r"s}) {
     write("stars.csv", text);
-    const auto stars = read_stars(folder_ / "stars.csv");
+    const auto stars = read_catalogue("stars.csv");
     ASSERT_TRUE(stars.ok()) << stars.error();
     ASSERT_EQ(stars.value().size(), 1U) << text;
     EXPECT_EQ(stars.value()[0].b_minus_v, 0.5);
