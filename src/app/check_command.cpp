@@ -34,6 +34,20 @@ std::string memory_line(const Scene& scene, const RenderSettings& settings) {
   return text + '\n';
 }
 
+// Of the whole scene, from its outline.
+TraceStrategy strategy_of_all(const Scene& outline) {
+  TraceStrategy strategy = trace_strategy(outline);
+  std::size_t left_out = 0;
+  for (const SceneFrame& frame : outline.frames)
+    left_out += frame.surface_count() - frame.object_of_surface.size();
+  const auto add = [left_out](CullingChoice& choice) {
+    if (choice.surfaces > 0) choice.surfaces += left_out;
+  };
+  add(strategy.camera);
+  for (CullingChoice& choice : strategy.shadows) add(choice);
+  return strategy;
+}
+
 void warn_of_shortage(const Scene& scene, const RenderSettings& settings) {
   const auto left = memory_left();
   if (!left) return;
@@ -68,7 +82,7 @@ int run(const CheckOptions& options) {
   warn_of_shortage(*scene, {});
   if (options.verbosity == Verbosity::quiet) return exit_success;
   std::cout << explain(session.description(), *scene, needs_within_tolerance(*scene))
-            << strategy_lines(*scene, trace_strategy(*scene)) << memory_line(*scene, {});
+            << strategy_lines(*scene, strategy_of_all(*scene)) << memory_line(*scene, {});
   if (frames.size() > 1) {
     std::cout << reuse_line(last) << "No mistakes in " << checked.size() << " of its " << frames.size()
               << " frames.\n";

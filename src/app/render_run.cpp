@@ -9,18 +9,15 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "backlight/base/json_text.h"
-#include "backlight/base/memory.h"
 #include "backlight/base/thread_pool.h"
 #include "backlight/film/display.h"
 #include "backlight/film/exposure.h"
 #include "backlight/render/image_identity.h"
-#include "backlight/render/image_memory.h"
 #include "backlight/render/partial_file.h"
 #include "backlight/render/wavelength_estimate.h"
 #include "display_words.h"
@@ -234,11 +231,6 @@ RenderRun::Outcome RenderRun::skip(const PlannedImage& image, const std::string&
   return Outcome::skipped;
 }
 
-RenderRun::Outcome RenderRun::trouble(const std::string& what) {
-  progress_.say("backlight: error: " + what);
-  return Outcome::file_trouble;
-}
-
 // What goes wrong with one image is told, and the others are made.
 template <class Step>
 RenderRun::Outcome RenderRun::explained(const PlannedImage& image, const FilmSettings& film,
@@ -271,14 +263,6 @@ RenderRun::Outcome RenderRun::begin(const PlannedImage& image, std::unique_ptr<C
   return outcome;
 }
 
-// What is wrong has been told, but not of which image.
-RenderRun::Outcome RenderRun::scene_is_wrong(const PlannedImage& image) {
-  const std::string frame =
-      image.request.frame ? " in frame " + std::to_string(*image.request.frame) : std::string();
-  progress_.say("backlight: error: " + image.exr.string() + ": not made, the scene is wrong" + frame);
-  return Outcome::failed;
-}
-
 RenderRun::Outcome RenderRun::start(Work& work) {
   work.needs = needs_within_tolerance(work.scene);
   work.settings = settings_for(options_, threads_->count(), work.scene, work.needs);
@@ -298,23 +282,6 @@ RenderRun::Outcome RenderRun::start(Work& work) {
 
 bool RenderRun::has_lost_claim(const Work& work) {
   return work.claim != nullptr && work.claim->is_lost();
-}
-
-// Where memory is short, the images before this one are finished first, and give theirs back.
-RenderRun::Outcome RenderRun::find_memory(const Work& work) {
-  constexpr std::uint64_t worth_a_look = std::uint64_t{64} << 20U;
-  if (image_bytes(work.scene, work.settings) < worth_a_look) return Outcome::made;
-  const auto shortage = [&work] {
-    const auto left = memory_left();
-    return left ? memory_shortage(work.scene, work.settings, *left) : std::string();
-  };
-  if (shortage().empty()) return Outcome::made;
-  const Outcome before = finish_all();
-  if (before > Outcome::failed) return before;
-  some_failed_ = some_failed_ || before == Outcome::failed;
-  deliveries_.wait();
-  if (const std::string text = shortage(); !text.empty()) throw std::runtime_error(text);
-  return Outcome::made;
 }
 
 RenderRun::Outcome RenderRun::finish(const std::shared_ptr<Work>& work) {

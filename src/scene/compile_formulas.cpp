@@ -125,9 +125,11 @@ std::optional<Shape> finished(Compilation& c, const TableView& table, std::strin
 
 std::optional<FormulaBounds> written_bounds(const TableView& table) {
   if (!table.has_valid("bounds") || !table.is_sound("bounds")) return std::nullopt;
+  const std::size_t errors = table.values().diagnostics.error_count();
   FormulaBounds bounds;
   bounds.low = table.vector_at("bounds", 0);
   bounds.high = table.vector_at("bounds", 1);
+  if (table.values().diagnostics.error_count() > errors) return std::nullopt;
   return bounds;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "compile_formulas.h"
 
@@ -217,8 +218,16 @@ class ShapeReader {
 
 Vec3 read_scale(const TableView& table) {
   const Node* written = table.node_of("scale");
-  return written != nullptr && written->array() != nullptr ? table.vector("scale")
-                                                           : Vec3{table.number("scale")};
+  const bool three = written != nullptr && written->array() != nullptr;
+  const Vec3 scale = three ? table.vector("scale") : Vec3{table.number("scale")};
+  constexpr double least = 1e-50;  // the inverse of the greatest
+  for (int i = 0; i < 3; ++i) {
+    if (scale[i] == 0.0 || std::abs(scale[i]) >= least) continue;  // zero is reported with the placement
+    table.error("scale", "'scale' is " + number_text(scale[i]) + ", but must be at least " +
+                             number_text(least) + " in size");
+    return Vec3{1.0};
+  }
+  return scale;
 }
 
 std::optional<CompiledShape> compile_shape(Compilation& c, const TableView& object, Materials& materials,

@@ -7,12 +7,19 @@
 #include "key_builders.h"
 
 namespace backlight {
+namespace {
+
+// The inverse of greatest_magnitude, as it is written.
+constexpr double least_magnitude = 1e-50;
+
+}  // namespace
 
 bool Range::contains(double value) const {
   if (!std::isfinite(value)) return false;
   if (value < least || (above_least && value == least)) return false;
   if (value > greatest || (below_greatest && value == greatest)) return false;
-  if (std::abs(value) > magnitude || (is_positive() && value < 1.0 / magnitude)) return false;
+  if (std::abs(value) > magnitude || (std::isfinite(magnitude) && is_positive() && value < least_magnitude))
+    return false;
   return !whole || value == std::floor(value);
 }
 
@@ -21,7 +28,7 @@ std::string Range::complaint(double value) const {
   without.magnitude = std::numeric_limits<double>::infinity();
   if (!without.contains(value)) return "must be " + words();
   return std::abs(value) > 1.0 ? "must be at most " + number_text(magnitude) + " in size"
-                               : "must be at least " + number_text(1.0 / magnitude);
+                               : "must be at least " + number_text(least_magnitude);
 }
 
 std::string Range::words() const {

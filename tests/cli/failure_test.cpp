@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -50,6 +51,45 @@ TEST_F(FailureTest, MissingSceneIsFileTrouble) {
     EXPECT_EQ(outcome.code, 4) << outcome.err;
     EXPECT_NE(outcome.err.find("none.toml"), std::string::npos) << outcome.err;
   }
+}
+
+TEST_F(FailureTest, FilesWithoutAnEndAreNotRead) {
+  ASSERT_EQ(mkfifo((folder / "work" / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(run({"check", "/dev/zero"}).code, 4);
+  EXPECT_EQ(run({"check", "/dev/full"}).code, 4);
+  EXPECT_EQ(run({"check", "pipe"}).code, 3);  // nobody writes to it: it is empty, and has no camera
+  for (const char* command : {"info", "view"}) {
+    for (const char* file : {"/dev/zero", "pipe", "."}) {
+      const Outcome outcome = run({command, file});
+      EXPECT_EQ(outcome.code, 4) << command << ' ' << file << outcome.err;
+      EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+    }
+  }
+  EXPECT_EQ(run({"compare", "/dev/zero", "pipe"}).code, 2);
+  EXPECT_EQ(run({"assemble", "/dev/zero", "pipe", "-o", "whole.exr"}).code, 4);
+}
+
+TEST_F(FailureTest, AnImageBeyondTheMemoryIsRefusedWithWhatToDo) {
+  write_scene();
+  const Outcome outcome = run({"scene.toml", "-r", "65536x65536", "--aov", "all", "-o", "big.exr"});
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  for (const char* words : {"an image of 65536x65536 pixels with 19 channels takes 308 GiB of memory",
+                            "--crop 0,0,65536,", "--aov none", "backlight assemble", "big.exr"}) {
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << words << '\n' << outcome.err;
+  }
+  EXPECT_FALSE(exists("big.exr"));
+  EXPECT_LT(outcome.seconds, 10.0);
+}
+
+TEST_F(FailureTest, CheckTellsTheMemoryThatRenderingTakes) {
+  write_scene("copies.toml",
+              "[[object]]\nshape = \"sphere\"\nradius = 0.1\nrepeat = { count = [500, 100, 100], step = [1, "
+              "1, 1] }\n");
+  const Outcome outcome = run({"check", "copies.toml"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("5000001"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("4.2 GiB for the surfaces"), std::string::npos) << outcome.out;
+  EXPECT_LT(outcome.seconds, 10.0);
 }
 
 TEST_F(FailureTest, FolderInsteadOfASceneIsFileTrouble) {

@@ -10,8 +10,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <string>
+#include <thread>
+
+#include "backlight/base/sha256.h"
 
 namespace backlight {
 namespace {
@@ -178,6 +182,60 @@ TEST_F(Files, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(read_file(folder / "none").error(),
             "cannot read " + (folder / "none").string() + ": No such file or directory");
   EXPECT_EQ(read_file(folder).error(), "cannot read " + folder.string() + ": Is a directory");
+}
+
+TEST_F(Files, ReadsNothingThatHasNoEnd) {
+  EXPECT_EQ(read_file("/dev/zero").error(), "cannot read /dev/zero: it is neither a file nor a pipe");
+  EXPECT_EQ(read_file("/dev/null").error(), "cannot read /dev/null: it is neither a file nor a pipe");
+  const fs::path file = folder / "file";
+  ASSERT_TRUE(write_file(file, "123456").ok());
+  EXPECT_EQ(read_file(file, 6).value(), "123456");
+  EXPECT_EQ(read_file(file, 5).error(), "cannot read " + file.string() + ": it is longer than 0 MiB");
+  fs::resize_file(file, std::uintmax_t{1} << 40U);  // takes no room on the disk
+  EXPECT_EQ(read_file(file).error(), "cannot read " + file.string() + ": it is longer than 256 MiB");
+}
+
+TEST_F(Files, ReadsAPipeToItsEnd) {
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(read_file(pipe).value(), "");  // nobody writes: not waited for
+  const int both = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_GE(both, 0);
+  ASSERT_EQ(::write(both, "text", 4), 4);
+  std::thread writer([both] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ::close(both);
+  });
+  EXPECT_EQ(read_file(pipe).value(), "text");
+  writer.join();
+}
+
+TEST_F(Files, TellsWhatIsNoRegularFile) {
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(require_regular_file(pipe).error(), "cannot read " + pipe.string() + ": not a regular file");
+  EXPECT_EQ(require_regular_file("/dev/zero").error(), "cannot read /dev/zero: not a regular file");
+  EXPECT_EQ(require_regular_file(folder).error(), "cannot read " + folder.string() + ": Is a directory");
+  EXPECT_EQ(require_regular_file(folder / "none").error(),
+            "cannot read " + (folder / "none").string() + ": No such file or directory");
+}
+
+TEST_F(Files, KnowsTheDigestOfAFile) {
+  ASSERT_TRUE(write_file(folder / "file", "abc").ok());
+  EXPECT_EQ(sha256_of_file(folder / "file").value(), sha256_hex("abc"));
+  EXPECT_FALSE(sha256_of_file("/dev/zero").ok());
+}
+
+TEST(Encoding, OfATextIsFoundOut) {
+  using namespace std::string_literals;
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB\xBFtext"), "text");
+  EXPECT_EQ(without_byte_order_mark("text"), "text");
+  EXPECT_EQ(fault_of_encoding("a = 1 # \xC3\xA4"), "");
+  EXPECT_EQ(fault_of_encoding(""), "");
+  EXPECT_EQ(fault_of_encoding("\xFF\xFE" + "a\0"s), "it is UTF-16 or UTF-32 text; save it as UTF-8");
+  EXPECT_EQ(fault_of_encoding("a\0=\0"s), "it is UTF-16 text; save it as UTF-8");
+  EXPECT_EQ(fault_of_encoding("\0a\0="s), "it is UTF-16 text; save it as UTF-8");
+  EXPECT_EQ(fault_of_encoding("abc\0def"s), "it is not text: it has null bytes");
 }
 
 TEST_F(Files, KeepsTheFirstFailure) {

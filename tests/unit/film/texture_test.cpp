@@ -214,7 +214,7 @@ TEST_F(Textures, ACroppedExrIsRefused) {
 TEST_F(Textures, AMissingFileIsNamed) {
   EXPECT_EQ(load_texture(folder / "none.png").error(),
             "cannot read " + (folder / "none.png").string() + ": No such file or directory");
-  EXPECT_EQ(load_texture(folder).error(), "cannot read " + folder.string() + ": not a file");
+  EXPECT_EQ(load_texture(folder).error(), "cannot read " + folder.string() + ": Is a directory");
   ASSERT_TRUE(write_file(folder / "text.png", "not a picture").ok());
   const std::string error = load_texture(folder / "text.png").error();
   EXPECT_TRUE(error.starts_with("cannot read " + (folder / "text.png").string() + ": ")) << error;
@@ -227,7 +227,10 @@ void expect_cuts_to_fail(const std::filesystem::path& path, std::size_t step, st
   for (std::size_t size = 0; size + spare < whole.size(); size += step) {
     std::filesystem::remove(path);
     std::ofstream(path, std::ios::binary) << std::string_view(whole).substr(0, size);
+    ::testing::internal::CaptureStderr();
     const Result<Texture> cut = load_texture(path);
+    ASSERT_EQ(::testing::internal::GetCapturedStderr(), "")
+        << path << " cut to " << size;  // libraries' own words
     ASSERT_FALSE(cut.ok()) << path << " cut to " << size << " of " << whole.size() << " bytes";
     ASSERT_TRUE(cut.error().starts_with("cannot read " + path.string() + ": ")) << cut.error();
     ASSERT_EQ(cut.error().find('\n'), std::string::npos) << cut.error();

@@ -14,6 +14,7 @@
 namespace backlight {
 namespace {
 
+using namespace std::string_literals;
 using testing_scenes::all_messages;
 using testing_scenes::camera;
 using testing_scenes::compiled;
@@ -29,6 +30,8 @@ class SceneFiles : public testing::Test {
     ASSERT_TRUE(write_file(folder_ / name, text).ok());
   }
   [[nodiscard]] ReadResult read(const std::string& name) const { return read_scene(folder_ / name); }
+
+  [[nodiscard]] auto read_catalogue(const std::string& name) const { return read_stars(folder_ / name); }
 
   Scene scene(const std::string& name) const {
     ReadResult result = read(name);
@@ -155,6 +158,59 @@ TEST(SceneReader, NumbersMayBeFormulasAnywhere) {
   EXPECT_EQ(s.film.width, 64);
   EXPECT_EQ(s.frames[0].surfaces->size(), 6U);
   EXPECT_EQ(s.sky.stars.size(), 10U);
+}
+
+// Chains are followed without recursion, and in a time that grows as their length does: with the square of
+// it, this would take minutes.
+TEST_F(SceneFiles, ChainsMayBeLong) {
+  constexpr int length = 100'000;
+  std::string text = "[params]\n";
+  for (int i = 0; i < length; ++i)
+    text += "p" + std::to_string(i) + " = \"p" + std::to_string(i + 1) + " + 1\"\n";
+  text +=
+      "p" + std::to_string(length) + " = 0\n" + camera + "[[object]]\nshape = \"sphere\"\nradius = \"p0\"\n";
+  const Scene scene = compiled(text);
+  EXPECT_EQ(scene.frames.front().surfaces->shape(0).values[0], length);
+}
+
+TEST_F(SceneFiles, FramesMayLieWithinManyOthers) {
+  constexpr int length = 20'000;
+  std::string text = camera;
+  for (int i = 0; i < length; ++i) {
+    const std::string outer = i + 1 < length ? "within = \"f" + std::to_string(i + 1) + "\"\n" : "";
+    text += "[frame.f" + std::to_string(i) + "]\norigin = [1, 0, 0]\n" + outer;
+  }
+  text += "[[object]]\nshape = \"sphere\"\nradius = 1\nframe = \"f0\"\n";
+  const Scene scene = compiled(text);
+  EXPECT_EQ(double(scene.frames.back().motion.origin.x[0]), length);
+}
+
+TEST_F(SceneFiles, CirclesAreFoundInLongChains) {
+  std::string text = "[params]\n";
+  for (int i = 0; i < 1000; ++i)
+    text += "p" + std::to_string(i) + " = \"p" + std::to_string((i + 1) % 1000) + "\"\n";
+  const ReadResult result = read_scene_text(text + camera, "circle.toml");
+  EXPECT_NE(all_messages(result.diagnostics).find("parameters use each other in a circle: p0 -> p1 -> "),
+            std::string::npos);
+  EXPECT_NE(all_messages(result.diagnostics).find(" -> ... (981 more) -> "), std::string::npos);
+}
+
+TEST_F(SceneFiles, AMarkOfUtf8IsNoPartOfTheText) {
+  write("marked.toml", "\xEF\xBB\xBF" + std::string(camera));
+  EXPECT_EQ(scene("marked.toml").frames.size(), 1U);
+}
+
+TEST_F(SceneFiles, TablesOfNumbersAreReadAsSpreadsheetsWriteThem) {
+  for (const std::string& text :
+       {"right_ascension,declination,magnitude,b_minus_v\n1,2,3,0.5\n"s,
+        "\xEF\xBB\xBFright_ascension;declination;magnitude;b_minus_v\r\n1;2;3;0.5\r\n;;;\r\n\r\n"s,
+        "\"right_ascension\"\t\"declination\"\t\"magnitude\"\t\"b_minus_v\"\r1\t2\t\"3\"\t0.5\r"s}) {
+    write("stars.csv", text);
+    const auto stars = read_catalogue("stars.csv");
+    ASSERT_TRUE(stars.ok()) << stars.error();
+    ASSERT_EQ(stars.value().size(), 1U) << text;
+    EXPECT_EQ(stars.value()[0].b_minus_v, 0.5);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Tries mutated scenes, images, textures and tables of numbers, with the address and undefined-behaviour
+# sanitizers: none may crash, take over 10 s or over 2 GB.
+#
+#   scripts/mutate.sh [COUNT] [SEED] [KIND...]        (of each; default: 100000 1 scene image texture table)
+#
+# The same seed makes the same inputs. One that fails is left in build/asan/found; put it into
+# tests/fuzz/corpus/KIND, from where ctest runs it for ever. Exits 1 when one was found.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+count=${1:-100000}
+seed=${2:-1}
+for number in "$count" "$seed"; do
+  [[ $number =~ ^[0-9]+$ ]] || { echo "scripts/mutate.sh: '$number' is not a whole number" >&2; exit 2; }
+done
+shift $(($# < 2 ? $# : 2))
+kinds=("$@")
+((${#kinds[@]})) || kinds=(scene image texture table)
+
+scripts/install.sh build test
+cmake --preset asan >/dev/null
+cmake --build --preset asan --target mutation_campaign backlight_oiio
+program=$(find build/asan -name mutation_campaign -type f -perm -u+x -print -quit)
+export BACKLIGHT_MODULE_PATH=$PWD/build/asan/lib/backlight
+seeds=tests/fuzz/corpus/seeds
+result=0
+for kind in "${kinds[@]}"; do
+  case $kind in
+    scene) files=(scenes/*.toml tests/golden/scenes/*.toml) ;;
+    image) files=("$seeds"/*.exr) ;;
+    texture) files=("$seeds"/texture.*) ;;
+    table) files=("$seeds"/*.csv) ;;
+    *) echo "scripts/mutate.sh: '$kind' is none of scene, image, texture and table" >&2; exit 2 ;;
+  esac
+  echo "=== $kind"
+  "$program" "$kind" "$count" "$seed" "build/asan/found/$kind" "${files[@]}" || result=1
+done
+exit $result
