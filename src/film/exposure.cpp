@@ -25,16 +25,17 @@ std::size_t bin_of(double luminance) {
   return static_cast<std::size_t>((stop - lowest_stop) * bins_a_stop);
 }
 
-// By how many stops the median luminance, of all pixels, is above 1; 0 where it is below.
-double stop_passed_by_half(const LuminanceCounts& counts) {
+// By how many stops above 1 the luminance is that no more than this share of all pixels pass; 0 where it is
+// below.
+double stops_passed_by(double share, const LuminanceCounts& counts) {
   double low = 0.0;
   double high = highest_stop;
-  if (counts.share_above(1.0) <= 0.5) return 0.0;
+  if (counts.share_above(1.0) <= share) return 0.0;
   while (high - low > 1.0 / bins_a_stop) {
     const double middle = 0.5 * (low + high);
-    (counts.share_above(std::exp2(middle)) > 0.5 ? low : high) = middle;
+    (counts.share_above(std::exp2(middle)) > share ? low : high) = middle;
   }
-  return low;
+  return high;
 }
 
 }  // namespace
@@ -88,14 +89,14 @@ double automatic_exposure(const LuminanceCounts& counts, double key) {
 
 DisplayTransform automatic_transform(const LuminanceCounts& counts) {
   if (counts.share_beyond_white() <= most_cut || counts.greatest() <= 0.0) return {};
-  const double median_stop = stop_passed_by_half(counts);
-  const double exposure = std::exp2(-median_stop);
-  const double white = counts.greatest() * exposure;
-  // A saturated colour may have a channel beyond white while its luminance is below.
-  if (white <= 1.0) return {-median_stop, ToneCurve::reinhard, 1.0};
+  const double darker = stops_passed_by(0.5, counts);
+  const double exposure = std::exp2(-darker);
+  // At least 1: a saturated colour may have a channel beyond white while its luminance is below.
+  const double white =
+      std::max(1.0, exposure * std::min(counts.greatest(), std::exp2(stops_passed_by(most_cut, counts))));
   const bool wide =
       white >= least_white_of_drago && counts.share_above(next_to_white / exposure) > most_flattened;
-  return {-median_stop, wide ? ToneCurve::drago : ToneCurve::reinhard, white};
+  return {0.0 - darker, wide ? ToneCurve::drago : ToneCurve::reinhard, white};
 }
 
 bool DisplayChoice::is_automatic() const {
