@@ -41,12 +41,12 @@ struct FrameBuilder {
 
   // One object with its copies, x counting fastest.
   void add_copies(int object, const Shape& shape, const Placement& first, const Lattice& lattice,
-                  const Vec3& rotate) {
+                  const Vec3& rotate, bool casts_shadow) {
     for (int k = 0; k < lattice.count[2]; ++k)
       for (int j = 0; j < lattice.count[1]; ++j)
         for (int i = 0; i < lattice.count[0]; ++i) {
           const Vec3 offset = Vec3{double(i), double(j), double(k)} * lattice.step;
-          surfaces.add(shape, Placement(first.position() + offset, rotate, first.scale()));
+          surfaces.add(shape, Placement(first.position() + offset, rotate, first.scale()), casts_shadow);
           object_of_surface.push_back(object);
         }
   }
@@ -174,7 +174,7 @@ class ObjectCompiler {
     }
     std::unique_ptr<FrameBuilder>& builder = frames_[frame_of_group_[group]].builder;
     if (!builder) builder = std::make_unique<FrameBuilder>();
-    builder->add_copies(index, compiled->shape, placement, lattice, rotate);
+    builder->add_copies(index, compiled->shape, placement, lattice, rotate, keys.boolean("casts_shadow"));
   }
 
   void finish_frames() {

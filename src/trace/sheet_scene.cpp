@@ -102,7 +102,7 @@ void SheetScene::list_occupants(const Hub& hub) {
     for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {
       lanes_.push_back(surfaces.lane_surface(s));
       const bool bounded = std::isfinite(surfaces.bounds(s).radius);
-      const bool own_occluder = !(light_tree && bounded);
+      const bool own_occluder = surfaces.casts_shadow(s) && !(light_tree && bounded);
       const int occluder = own_occluder ? static_cast<int>(occluders_.size()) : -1;
       occupants_.push_back({frame, s, &lanes_.back(), 0, camera_tree && bounded, occluder});
       if (own_occluder) occluders_.push_back({frame, s, &lanes_.back()});
