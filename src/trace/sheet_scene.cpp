@@ -137,8 +137,10 @@ EyeView SheetScene::view_of(const Scene& scene, const Hub& hub, int eye) const {
       cone.level = -infinity;
       double radius = 0.0;
       if (occupant.surface == Occupant::whole_frame) {
-        if (view.far && delayed != 0) cone = cone_of(*view.far, view.far->bounds, offset);
-        if (view.far) radius = view.far->bounds.radius * (1.0 + 1e-9);
+        if (view.far && view.far->unbounded.empty()) {
+          if (delayed != 0) cone = cone_of(*view.far, view.far->bounds, offset);
+          radius = view.far->bounds.radius * (1.0 + 1e-9);
+        }
       } else {
         const BoundingSphere sphere = bounds_of(occupant, *view.scene->surfaces);
         if (std::isfinite(sphere.radius)) {
