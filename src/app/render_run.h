@@ -98,7 +98,7 @@ class RenderRun {
   bool lacked_memory_ = false;  // for an image that was traced
   std::optional<Scene> first_;
   bool has_stopped_ = false;
-  bool some_failed_ = false;                   // of those that were finished to make room for another
+  bool some_failed_ = false;  // of those that were finished to make room for another
   bool has_told_of_film_ = false;
   double last_seconds_ = 1.0;                  // that the image before took
   std::optional<Claimant> claimant_;           // behind those who have claims

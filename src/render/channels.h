@@ -35,8 +35,8 @@ class PixelWriter {
   PixelWriter(const Scene& scene, Image& image, std::size_t view);
 
   /// Each returns whether all it wrote is finite as a float, or is as it should be: infinitely far, where the
-  /// ray meets nothing. `at`: the image's offset(). A colour beyond the greatest float is written as bright as
-  /// a float can be (`saturated`).
+  /// ray meets nothing. `at`: the image's offset(). A colour beyond the greatest float is written as bright
+  /// as a float can be (`saturated`).
   bool colour(std::size_t at, const LinearRgb& rgb, double alpha) const {
     float values[4] = {static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b),
                        static_cast<float>(alpha)};

@@ -51,7 +51,7 @@ struct FrameBuilder {
 
   // One object with its copies, x counting fastest.
   void add_copies(int object, const Shape& shape, const Placement& first, const Lattice& lattice,
-                  const Vec3& rotate, bool outline) {
+                  const Vec3& rotate, bool outline, bool casts_shadow) {
     const std::size_t total = lattice.copies();
     const std::size_t made = outline ? std::min(total, most_outlined) : total;
     std::size_t done = 0;
@@ -61,7 +61,7 @@ struct FrameBuilder {
         for (int i = 0; i < lattice.count[0]; ++i) {
           if (done++ == made) return;
           const Vec3 offset = Vec3{double(i), double(j), double(k)} * lattice.step;
-          surfaces.add(shape, Placement(first.position() + offset, rotate, first.scale()));
+          surfaces.add(shape, Placement(first.position() + offset, rotate, first.scale()), casts_shadow);
           object_of_surface.push_back(object);
         }
   }
@@ -194,7 +194,8 @@ class ObjectCompiler {
     if (!builder) builder = std::make_unique<FrameBuilder>();
     if (!leave_room(keys, lattice)) return;
     const auto first = static_cast<int>(builder->surfaces.size());
-    builder->add_copies(index, compiled->shape, placement, lattice, rotate, c_.request.outline);
+    builder->add_copies(index, compiled->shape, placement, lattice, rotate, c_.request.outline,
+                        keys.boolean("casts_shadow"));
     if (!is_infinite(compiled->shape) && !(builder->surfaces.bounds(first).radius <= greatest_composed)) {
       keys.error("shape", "it is larger than " + number_text(greatest_composed) + ", all scales together");
     }

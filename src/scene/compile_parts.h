@@ -36,4 +36,12 @@ void compile_effects(Compilation& c);
 /// nothing was wrong.
 void foresee_brightness(Compilation& c);
 
+/// Adds an error for things that move so fast relative to each other, or so far from the origin, that frames
+/// cannot be composed to what is promised. For a scene that is whole.
+void check_reach(Compilation& c);
+
+/// Adds a warning for each point lamp that an opaque object hides from all that the camera sees, and for each
+/// that lies on a surface. For a scene that is whole.
+void warn_of_hidden_lamps(Compilation& c);
+
 }  // namespace backlight

@@ -127,6 +127,9 @@ KeyTable object() {
       "shape"};
   add_shape_keys(table.keys, "Where its centre is.",
                  "The name of a `[material.NAME]`, or its keys; without it, a grey of reflectance 0.8.");
+  table.keys.push_back(boolean("casts_shadow", true,
+                               "Whether it is in the way of light, its own surface's included. False: it "
+                               "is seen and lit like any other, and hides no lamp: the bulb about one."));
   table.keys.push_back(structured("repeat", {{ValueKind::table, 0, "object.repeat"}},
                                   "Copies of it, all at rest in the same frame and of the same `objectId`."));
   add_motion_or_frame(table.keys);
@@ -205,11 +208,11 @@ std::vector<KeyTable> shapes() {
   shape("object.disk", "A flat disk; its normal is y. Texture: the disk fills the middle of the unit square.",
         {length("radius", Required{}, "Radius.", above(0))});
   shape("object.plane", "The plane y = 0, infinite. Texture: u = x, v = z, repeating.", {});
-  shape("object.quadric",
-        "c0 x² + c1 y² + c2 z² + c3 xy + c4 xz + c5 yz + c6 x + c7 y + c8 z + c9 = 0, infinite. Texture: as "
-        "the "
-        "plane's.",
-        {numbers("coefficients", 10, Required{}, "", "c0 to c9.", {.magnitude = greatest_magnitude})});
+  shape(
+      "object.quadric",
+      "c0 x² + c1 y² + c2 z² + c3 xy + c4 xz + c5 yz + c6 x + c7 y + c8 z + c9 = 0, infinite unless it is an "
+      "ellipsoid. Texture: as the plane's.",
+      {numbers("coefficients", 10, Required{}, "", "c0 to c9.", {.magnitude = greatest_magnitude})});
   shape(
       "object.implicit",
       "Where a formula is zero, within bounds: f(x, y, z, t) = 0, solid where f < 0. Every root along a ray "

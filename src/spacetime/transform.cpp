@@ -28,27 +28,27 @@ Matrix4 product(const Matrix4& a, const Matrix4& b) {
   return m;
 }
 
-// B(to) B(from)⁻¹ = R B(w); returns w and the matrix of R.
-struct Decomposition {
-  ExtendedVec3 celerity;
-  Extended gamma;
-  Matrix4 rotation;
-};
-
-Decomposition decompose(const ExtendedVec3& to, const ExtendedVec3& from) {
-  const Matrix4 lambda = product(boost_matrix(to), boost_matrix(Extended(-1.0) * from));
-  Decomposition d;
-  d.celerity = {-lambda[0][1], -lambda[0][2], -lambda[0][3]};
-  d.gamma = lambda[0][0];
-  d.rotation = product(lambda, boost_matrix(Extended(-1.0) * d.celerity));
-  return d;
+ExtendedVec3 cross(const ExtendedVec3& a, const ExtendedVec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Mat3 rounded_rotation(const Matrix4& m) {
+// The rotation R of B(to) B(from)⁻¹ = R B(w): docs/physics.md equation (1a). Neither part of the quaternion
+// is a difference of large numbers of which a small one is left, as the elements of the product R = Λ B(w)⁻¹
+// are: those lose γ² ulps of the relative γ, and rays that come from γ lengths away γ³.
+Mat3 wigner_rotation(const ExtendedVec3& to, const ExtendedVec3& from) {
+  const Extended one(1.0);
+  const Extended s = (one + lorentz_factor(to)) * (one + lorentz_factor(from)) - dot(to, from);
+  const ExtendedVec3 v = cross(to, from);
+  const Extended square = dot(v, v);
+  const Extended scale = Extended(2.0) / (s * s + square);
   Mat3 r{1.0};
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      r[column][row] = double(m[static_cast<std::size_t>(row + 1)][static_cast<std::size_t>(column + 1)]);
+  for (int row = 0; row < 3; ++row) {
+    r[row][row] = double(one + scale * (v[row] * v[row] - square));
+    const int next = (row + 1) % 3;
+    const int last = (row + 2) % 3;
+    r[last][next] = double(scale * (v[next] * v[last] - s * v[row]));
+    r[next][last] = double(scale * (v[next] * v[last] + s * v[row]));
+  }
   return r;
 }
 
@@ -105,12 +105,13 @@ RelativeMotion relative_motion(const ExtendedVec3& to, const ExtendedVec3& from)
     const ExtendedVec3 u = from == rest ? to : Extended(-1.0) * from;
     return {u.rounded(), double(lorentz_factor(u)), double(sqrt(dot(u, u))), Mat3{1.0}, false, false};
   }
-  const Decomposition d = decompose(to, from);
+  // w is the space part of the four-velocity of To, (γ; u), carried to From.
+  const ExtendedEvent four_velocity = boost(from, {lorentz_factor(to), to});
   RelativeMotion motion;
-  motion.celerity = d.celerity.rounded();
-  motion.gamma = double(d.gamma);
-  motion.speed = double(sqrt(dot(d.celerity, d.celerity)));
-  motion.rotation = rounded_rotation(d.rotation);
+  motion.celerity = four_velocity.x.rounded();
+  motion.gamma = double(four_velocity.t);
+  motion.speed = double(sqrt(dot(four_velocity.x, four_velocity.x)));
+  motion.rotation = wigner_rotation(to, from);
   motion.identity = motion.speed == 0.0;
   motion.rotated = motion.rotation != Mat3{1.0};
   return motion;

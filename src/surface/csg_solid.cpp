@@ -8,8 +8,15 @@
 namespace backlight {
 namespace {
 
+// Whether a closed form is solid outside of its surface: a line comes from inside, as none of a ball does,
+// but every one of a quadric whose formula is negative far away.
+bool is_solid_beyond(const Shape& shape) {
+  const LocalLine line{Vec3{0.0}, Vec3{1.0, 0.0, 0.0}, 0.0, 0.0, 1.0, {}};
+  return methods(shape).begin_walk == nullptr && crossings(shape, line, -infinite, Wanted::all).inside_before;
+}
+
 AxisBox box_of(const PlacedSurface& surface) {
-  if (std::isfinite(surface.radius)) return axis_box(surface);
+  if (std::isfinite(surface.radius) && !is_solid_beyond(surface.shape)) return axis_box(surface);
   AxisBox everything;
   everything.lo = Vec3{-infinite};
   everything.hi = Vec3{infinite};

@@ -22,6 +22,7 @@ struct PlacedSurface {
   Placement placement;
   double radius;  ///< of the bounding sphere about placement.position(), rest frame; may be infinite
   bool aligned;   ///< neither turned nor scaled: local and rest coordinates have the same axes
+  bool casts_shadow = true;
 
   [[nodiscard]] Vec3 to_local(const Vec3& rest) const {
     return aligned ? rest : placement.local_from_rest() * rest;

@@ -77,9 +77,14 @@ const Shape& SurfaceSet::shape(int surface) const {
   return surfaces_[static_cast<std::size_t>(surface)].shape;
 }
 
-int SurfaceSet::add(const Shape& shape, const Placement& placement) {
+bool SurfaceSet::casts_shadow(int surface) const {
+  return surfaces_[static_cast<std::size_t>(surface)].casts_shadow;
+}
+
+int SurfaceSet::add(const Shape& shape, const Placement& placement, bool casts_shadow) {
   assert(problem(shape).empty() && problem(placement).empty());
   surfaces_.push_back(place(shape, placement));
+  surfaces_.back().casts_shadow = casts_shadow;
   return static_cast<int>(surfaces_.size()) - 1;
 }
 
@@ -154,7 +159,7 @@ bool SurfaceSet::search_range(const RestRay& ray, double lambda_min, std::size_t
     const int index = index_[slot];
     const PlacedSurface& surface = surfaces_[static_cast<std::size_t>(index)];
     if constexpr (any) {
-      if (!is_blocked_by(surface, ray, lambda_min, best.lambda)) continue;
+      if (!surface.casts_shadow || !is_blocked_by(surface, ray, lambda_min, best.lambda)) continue;
       best.surface = index;
       return true;
     } else {
@@ -182,8 +187,9 @@ Hit SurfaceSet::search(const RestRay& ray, double lambda_min, double lambda_max,
   Hit best;
   best.lambda = lambda_max;
   for (const int index : unbounded) {
-    const FirstCrossing crossing =
-        first_crossing(surfaces_[static_cast<std::size_t>(index)], ray, lambda_min);
+    const PlacedSurface& surface = surfaces_[static_cast<std::size_t>(index)];
+    if (any && !surface.casts_shadow) continue;
+    const FirstCrossing crossing = first_crossing(surface, ray, lambda_min);
     if (crossing.lambda < best.lambda) {
       best = {crossing.lambda, index, crossing.part, crossing.unresolved, crossing.along};
       if constexpr (any) {

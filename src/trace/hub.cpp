@@ -6,16 +6,25 @@
 namespace backlight {
 namespace {
 
-FrameView view_of(const SceneFrame& frame, const CameraView& camera, double robust_from) {
+std::vector<int> unbounded_of(const SurfaceSet& surfaces) {
+  std::vector<int> unbounded;
+  for (int i = 0; i < static_cast<int>(surfaces.size()); ++i) {
+    if (!std::isfinite(surfaces.bounds(i).radius)) unbounded.push_back(i);
+  }
+  return unbounded;
+}
+
+// `events_wanted`: whether it is asked for events besides those on its surfaces.
+FrameView view_of(const SceneFrame& frame, const CameraView& camera, double robust_from, bool events_wanted) {
   const ExtendedEvent event = to_frame(frame.motion, camera.event);
   FrameView view;
   view.from_camera = relative_transform<Rest, Camera>(frame.motion.celerity, camera.celerity, robust_from);
   view.camera_event = {double(event.t), event.x.rounded()};
   view.scene = &frame;
-  const BoundingSphere bounds = frame.surfaces->bounds();
-  if (view.from_camera.gamma() > robust_from && bounds.radius >= 0.0 && std::isfinite(bounds.radius)) {
+  if (view.from_camera.gamma() > robust_from && (events_wanted || frame.surfaces->size() > 0)) {
     view.far = std::make_shared<const FarView>(
-        FarView{ExtendedTransform(frame.motion.celerity, camera.celerity), event, bounds});
+        FarView{ExtendedTransform(frame.motion.celerity, camera.celerity), event,
+                frame.surfaces->bounds_of_bounded(), unbounded_of(*frame.surfaces)});
   }
   return view;
 }
@@ -37,10 +46,14 @@ Hub make_hub(const Scene& scene, const ModelPieces& pieces) {
   const double robust_from =
       pieces.robust_arithmetic ? robust_gamma : std::numeric_limits<double>::infinity();
   Hub hub;
+  std::vector<bool> events_wanted(scene.frames.size(), false);
+  events_wanted[0] = true;  // the time of emission is told in the world's
+  for (const Light& light : scene.lights) events_wanted[static_cast<std::size_t>(light.frame)] = true;
   hub.frames.reserve(scene.frames.size());
-  for (const SceneFrame& frame : scene.frames) {
-    hub.frames.push_back(view_of(frame, scene.camera, robust_from));
-    if (frame.surfaces->size() > 0) hub.occupied.push_back(static_cast<int>(hub.frames.size()) - 1);
+  for (std::size_t i = 0; i < scene.frames.size(); ++i) {
+    const SceneFrame& frame = scene.frames[i];
+    hub.frames.push_back(view_of(frame, scene.camera, robust_from, events_wanted[i]));
+    if (frame.surfaces->size() > 0) hub.occupied.push_back(static_cast<int>(i));
   }
   hub.lights.reserve(scene.lights.size());
   for (const Light& light : scene.lights) {

@@ -6,30 +6,16 @@
 namespace backlight {
 namespace {
 
-// Moves the ray's start, in extended precision, to where it enters the bounds of the frame's surfaces (with
-// room for the rounding of where that is). From there on doubles are as good as near an object at rest.
-void bring_near(const FarView& far, const CameraRay& ray, RestRayEvents& events) {
-  const double inverse_square = 1.0 / glm::dot(events.direction, events.direction);
-  const Vec3 to_centre = far.bounds.centre - events.origin;
-  const double closest = glm::dot(to_centre, events.direction) * inverse_square;
-  const double room = far.bounds.radius * 1.001 + 1e-12 * glm::length(to_centre);
-  events.start = std::max(0.0, closest - room * std::sqrt(inverse_square));
-
-  const ExtendedVec3 looking{ray.direction};
-  const Extended rate = ray.light_delay ? -sqrt(dot(looking, looking)) : Extended(0.0);
-  const ExtendedEvent n = far.from_camera(ExtendedEvent{rate, looking});
-  ExtendedEvent event = far.camera_event;
-  if (ray.displaced) {
-    const ExtendedEvent offset = far.from_camera({Extended(ray.offset.t), ExtendedVec3{ray.offset.x}});
-    event = {event.t + offset.t, event.x + offset.x};
-  }
-  events.time = double(event.t + Extended(events.start) * n.t);
-  events.origin = (event.x + Extended(events.start) * n.x).rounded();
+// Moves the ray's start in extended precision. From there on doubles are as good as near an object at rest.
+void move_start(const FarView& far, const CameraRay& ray, double start, RestRayEvents& events) {
+  const ExtendedEvent event = far_event(far, ray, Extended(start));
+  events.start = start;
+  events.time = double(event.t);
+  events.origin = event.x.rounded();
 }
 
-}  // namespace
-
-RestRayEvents in_frame(const FrameView& frame, const CameraRay& ray) {
+// The ray from the camera's event on.
+RestRayEvents from_camera(const FrameView& frame, const CameraRay& ray) {
   RestRayEvents events;
   events.origin = frame.camera_event.x;
   events.time = frame.camera_event.t;
@@ -47,7 +33,42 @@ RestRayEvents in_frame(const FrameView& frame, const CameraRay& ray) {
     events.direction = n.x;
     events.time_rate = n.t;
   }
-  if (frame.far) bring_near(*frame.far, ray, events);
+  return events;
+}
+
+}  // namespace
+
+double start_near(const BoundingSphere& bounds, const RestRayEvents& events) {
+  const double inverse_square = 1.0 / glm::dot(events.direction, events.direction);
+  const Vec3 to_centre = bounds.centre - events.origin;
+  const double closest = glm::dot(to_centre, events.direction) * inverse_square;
+  const double room = bounds.radius * 1.001 + 1e-12 * glm::length(to_centre);
+  return std::max(0.0, closest - room * std::sqrt(inverse_square));
+}
+
+ExtendedEvent far_event(const FarView& far, const CameraRay& ray, const Extended& lambda) {
+  const ExtendedVec3 looking{ray.direction};
+  const Extended rate = ray.light_delay ? -sqrt(dot(looking, looking)) : Extended(0.0);
+  const ExtendedEvent n = far.from_camera(ExtendedEvent{rate, looking});
+  ExtendedEvent event = far.camera_event;
+  if (ray.displaced) {
+    const ExtendedEvent offset = far.from_camera({Extended(ray.offset.t), ExtendedVec3{ray.offset.x}});
+    event = {event.t + offset.t, event.x + offset.x};
+  }
+  return {event.t + lambda * n.t, event.x + lambda * n.x};
+}
+
+RestRayEvents in_frame(const FrameView& frame, const CameraRay& ray) {
+  RestRayEvents events = from_camera(frame, ray);
+  if (frame.far && frame.far->bounds.radius >= 0.0) {
+    move_start(*frame.far, ray, start_near(frame.far->bounds, events), events);
+  }
+  return events;
+}
+
+RestRayEvents in_frame_from(const FrameView& frame, const CameraRay& ray, double start) {
+  RestRayEvents events = from_camera(frame, ray);
+  move_start(*frame.far, ray, start, events);
   return events;
 }
 

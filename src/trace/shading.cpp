@@ -35,7 +35,7 @@ void for_each_lamp(const ShadingContext& context, const SeenPoint& point, const 
       continue;
     }
     const LightView& view = context.hub->lights[i];
-    const auto a = arrival(scratch.rays, point, view);
+    const auto a = arrival(*context.hub, scratch.rays, point, view);
     if (!a) continue;
     const double strength = strength_at(light, a->emission_time, scene.c, scratch.light_variables[i]);
     if (strength == 0.0) continue;

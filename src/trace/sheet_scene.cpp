@@ -102,7 +102,7 @@ void SheetScene::list_occupants(const Hub& hub) {
     for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {
       lanes_.push_back(surfaces.lane_surface(s));
       const bool bounded = std::isfinite(surfaces.bounds(s).radius);
-      const bool own_occluder = !(light_tree && bounded);
+      const bool own_occluder = surfaces.casts_shadow(s) && !(light_tree && bounded);
       const int occluder = own_occluder ? static_cast<int>(occluders_.size()) : -1;
       occupants_.push_back({frame, s, &lanes_.back(), 0, camera_tree && bounded, occluder});
       if (own_occluder) occluders_.push_back({frame, s, &lanes_.back()});
@@ -137,8 +137,10 @@ EyeView SheetScene::view_of(const Scene& scene, const Hub& hub, int eye) const {
       cone.level = -infinity;
       double radius = 0.0;
       if (occupant.surface == Occupant::whole_frame) {
-        if (view.far && delayed != 0) cone = cone_of(*view.far, view.far->bounds, offset);
-        if (view.far) radius = view.far->bounds.radius * (1.0 + 1e-9);
+        if (view.far && view.far->unbounded.empty()) {
+          if (delayed != 0) cone = cone_of(*view.far, view.far->bounds, offset);
+          radius = view.far->bounds.radius * (1.0 + 1e-9);
+        }
       } else {
         const BoundingSphere sphere = bounds_of(occupant, *view.scene->surfaces);
         if (std::isfinite(sphere.radius)) {

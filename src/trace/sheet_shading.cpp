@@ -184,7 +184,7 @@ FirstHit SheetShader::hit(int lane) {
     for (int i = 0; i < p.count; ++i) work_.hits[i] = {p.lambda[i], occupant_->surface, 0, false};
     hits_known_ = true;
   }
-  return {work_.hits[lane], occupant_->frame, Extended(p.lambda[lane])};
+  return {work_.hits[lane], occupant_->frame, 0.0, Extended(p.lambda[lane])};
 }
 
 // Returns the index of their material, or -1 for several.

@@ -283,18 +283,15 @@ class SheetSearch {
   }
 
   void ask_frame(TileSheet& sheet, const Occupant& occupant, std::uint64_t inside) {
-    const SurfaceSet& surfaces =
-        *tracer_.hub().frames[static_cast<std::size_t>(occupant.frame)].scene->surfaces;
     for (; inside != 0; inside &= inside - 1) {
       const int lane = __builtin_ctzll(inside);
       scratch_.rays.start(camera_ray_of(tracer_.scene(), sheet.rays, lane, eye_));
-      const RestRayEvents& ray = scratch_.rays.in(occupant.frame);
-      const Hit hit =
-          surfaces.nearest(ray.origin, ray.direction, sheet.rays.lambda[lane] - ray.start, ray.clock());
+      const FirstHit hit =
+          first_hit_in(occupant.frame, tracer_.hub(), scratch_.rays, sheet.rays.lambda[lane]);
       if (!hit.found()) continue;
       const auto place = static_cast<std::size_t>(sheet.place[lane]);
       if (work_.far_hits.size() <= place) work_.far_hits.resize(place + 1);
-      work_.far_hits[place] = {hit, occupant.frame, Extended(ray.start) + Extended(hit.lambda)};
+      work_.far_hits[place] = hit;
       sheet.rays.lambda[lane] = double(work_.far_hits[place].lambda);
       sheet.rays.who[lane] = far_hit;
     }

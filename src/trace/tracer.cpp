@@ -102,7 +102,7 @@ SurfaceRecord Tracer::surface_of(const CameraRay& ray, const FirstHit& hit, Scra
   record.object_id = object_of(*scene_, hit).id;
   record.distance = double(hit.lambda);
   record.doppler = scratch.rays.in(hit.frame).doppler(ray.light_delay).value;
-  record.emission_time = scratch.rays.in(0).at(hit.lambda).t / scene_->c;
+  record.emission_time = scratch.rays.event(0, hit.lambda).t / scene_->c;
   record.proper_time = point.proper_time / scene_->c;
   record.position = point.surface.position;
   record.normal = point.normal;

@@ -20,35 +20,126 @@ int material_of(const Scene& scene, const FirstHit& hit, const SurfacePoint& poi
                                          : object.member_materials[static_cast<std::size_t>(point.member)];
 }
 
+namespace {
+
+// A surface without bounds, met from the camera on: its distance there carries the rounding of an event that
+// may be γ times farther away. So it is met again from close by.
+FirstHit hit_of_unbounded(int surface, const FrameView& view, const CameraRay& ray,
+                          const RestRayEvents& from_camera) {
+  const SurfaceSet& surfaces = *view.scene->surfaces;
+  const Hit rough =
+      surfaces.first_crossing_of(surface, from_camera.origin, from_camera.direction, from_camera.clock());
+  if (!rough.found()) return {};
+  const double length = glm::length(from_camera.direction);
+  const double room = 1e-12 * (rough.lambda + glm::length(from_camera.origin) / length);
+  const RestRayEvents near = in_frame_from(view, ray, std::max(0.0, rough.lambda - room));
+  FirstHit first;
+  first.hit = surfaces.first_crossing_of(surface, near.origin, near.direction, near.clock());
+  first.start = near.start;
+  first.lambda = Extended(near.start) + Extended(first.hit.lambda);
+  return first;
+}
+
+}  // namespace
+
+FirstHit first_hit_in(int frame, const Hub& hub, RayInFrames& rays, double limit) {
+  const FrameView& view = hub.frames[static_cast<std::size_t>(frame)];
+  const SurfaceSet& surfaces = *view.scene->surfaces;
+  const RestRayEvents& ray = rays.in(frame);
+  const bool apart = view.far && !view.far->unbounded.empty();
+  FirstHit first;
+  first.hit = apart ? surfaces.nearest_bounded(ray.origin, ray.direction, limit - ray.start, ray.clock())
+                    : surfaces.nearest(ray.origin, ray.direction, limit - ray.start, ray.clock());
+  first.start = ray.start;
+  first.lambda = Extended(ray.start) + Extended(first.hit.lambda);
+  if (apart) {
+    const RestRayEvents from_camera = in_frame_from(view, rays.ray(), 0.0);
+    for (const int surface : view.far->unbounded) {
+      const FirstHit other = hit_of_unbounded(surface, view, rays.ray(), from_camera);
+      if (!other.found() || !(double(other.lambda) < limit)) continue;
+      const bool same = other.lambda == first.lambda && surface < first.hit.surface;
+      if (!first.found() || other.lambda < first.lambda || same) first = other;
+    }
+  }
+  if (!first.found()) return {};
+  first.frame = frame;
+  return first;
+}
+
 FirstHit first_hit(const Hub& hub, RayInFrames& rays) {
   FirstHit first;
   double nearest = std::numeric_limits<double>::infinity();
   for (const int index : hub.occupied) {
-    const RestRayEvents& ray = rays.in(index);
-    const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(index)].scene->surfaces;
-    const Hit hit = surfaces.nearest(ray.origin, ray.direction, nearest - ray.start, ray.clock());
+    const FirstHit hit = first_hit_in(index, hub, rays, nearest);
     if (!hit.found()) continue;
-    first = {hit, index, Extended(ray.start) + Extended(hit.lambda)};
+    first = hit;
     nearest = double(first.lambda);
   }
   return first;
 }
 
+namespace {
+
+// Whether a segment passes the bounds of a frame's surfaces by more than rounding: all of its numbers are
+// doubles, of which `doubt` is unsure as a part of the way.
+bool passes_by(const BoundingSphere& bounds, const Vec3& start, const Vec3& direction, double doubt) {
+  if (bounds.radius < 0.0) return true;
+  const Vec3 to_centre = bounds.centre - start;
+  const double along = glm::dot(to_centre, direction) / glm::dot(direction, direction);
+  const double room = 1.001 * bounds.radius + doubt * (glm::length(to_centre) + glm::length(start));
+  const Vec3 miss = to_centre - along * direction;
+  return glm::dot(miss, miss) > room * room;
+}
+
+// The shadow of a frame with a FarView on a point of another: the segment is brought next to the surfaces
+// that have bounds as rays are.
+bool is_shadowed_far(const FrameView& view, const InertialFrame& lamp, RayInFrames& rays, const FirstHit& hit,
+                     const ShadowSegment& segment) {
+  const SurfaceSet& surfaces = *view.scene->surfaces;
+  const ExtendedEvent start = far_event(*view.far, rays.ray(), hit.lambda);
+  const ExtendedVec3 way{segment.direction.x};
+  const ExtendedEvent k =
+      ExtendedTransform(view.scene->motion.celerity, lamp.celerity)({-sqrt(dot(way, way)), way});
+  RestRayEvents events{start.x.rounded(), k.x.rounded(), double(start.t), double(k.t), 0.0};
+  for (const int surface : view.far->unbounded) {
+    if (!surfaces.casts_shadow(surface)) continue;
+    const Hit crossing = surfaces.first_crossing_of(surface, events.origin, events.direction, events.clock());
+    if (crossing.lambda < segment.end) return true;
+  }
+  if (view.far->bounds.radius < 0.0) return false;
+  events.start = start_near(view.far->bounds, events);
+  if (!(events.start < segment.end)) return false;
+  const Extended moved(events.start);
+  events.origin = (start.x + moved * k.x).rounded();
+  events.time = double(start.t + moved * k.t);
+  return surfaces.blocked_bounded(events.origin, events.direction, 0.0, segment.end - events.start,
+                                  events.clock());
+}
+
+}  // namespace
+
 bool is_shadowed_in(int frame, const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,
                     const ShadowSegment& segment) {
-  const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(frame)].scene->surfaces;
+  const FrameView& view = hub.frames[static_cast<std::size_t>(frame)];
+  const SurfaceSet& surfaces = *view.scene->surfaces;
   if (frame == hit.frame) {
     return surfaces.blocked(segment.start_in_surface_frame, segment.direction_in_surface_frame, 0.0,
                             segment.end, segment.clock_in_surface_frame);
   }
   const Event<Rest> start = rays.in(frame).at(hit.lambda);
+  const auto& to_frame = light.to_frame[static_cast<std::size_t>(frame)];
   if (!light.retarded_shadows) {
-    const Displacement<Rest> now =
-        light.to_frame[static_cast<std::size_t>(frame)](Displacement<Source>{0.0, segment.direction.x});
+    const Displacement<Rest> now = to_frame(Displacement<Source>{0.0, segment.direction.x});
     return surfaces.blocked(start.x, now.x, 0.0, segment.end, {start.t, now.t});
   }
-  const NullDirection<Rest> direction = light.to_frame[static_cast<std::size_t>(frame)](segment.direction);
-  return surfaces.blocked(start.x, direction.x, 0.0, segment.end, {start.t, -direction.length});
+  const NullDirection<Rest> direction = to_frame(segment.direction);
+  if (!view.far) {
+    return surfaces.blocked(start.x, direction.x, 0.0, segment.end, {start.t, -direction.length});
+  }
+  const double doubt = 1e-12 + 1e-14 * (to_frame.gamma() + view.from_camera.gamma());
+  if (view.far->unbounded.empty() && passes_by(view.far->bounds, start.x, direction.x, doubt)) return false;
+  const InertialFrame& lamp = hub.frames[static_cast<std::size_t>(light.light->frame)].scene->motion;
+  return is_shadowed_far(view, lamp, rays, hit, segment);
 }
 
 bool is_shadowed(const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,

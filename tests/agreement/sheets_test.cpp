@@ -340,6 +340,39 @@ TEST(Sheets, AreTheLawForManySurfacesOfAFrame) {
                  three_colours);
 }
 
+// What casts no shadow is passed over by every way of shading: by kernels, trees, packets and the law, in its
+// own frame and in others; lamps are inside of some.
+TEST(Sheets, AreTheLawWhereThingsCastNoShadow) {
+  const std::string clear = "casts_shadow = false\n";
+  std::string more =
+      "[[light]]\nposition = [1, 1, -1]\nbeta = [0.2, 0.3, 0]\nintensity = \"20 + 6*sin(3*t)\"\n"
+      "[[light]]\ntype = \"distant\"\ndirection = [0.3, -1, 0.5]\nirradiance = 0.7\n"
+      "[[object]]\nshape = \"sphere\"\nradius = 0.7\nposition = [1, 1, -1]\nbeta = [0.2, 0.3, 0]\n" +
+      clear + "[[object]]\nshape = \"plane\"\nposition = [0, 12, 0]\nrotate = [10, 0, 0]\n" + clear +
+      "[[object]]\nshape = \"torus\"\nmajor = 1\nminor = 0.3\nposition = [-1, 1, -3]\n" + clear +
+      "[[object]]\nshape = \"implicit\"\nf = \"x^2+y^2+z^2-1+0.2*sin(5*x+t)\"\n"
+      "bounds = [[-2, -2, -2], [2, 2, 2]]\nposition = [2, 1, -3]\nbeta = [0, 0.3, 0.3]\n" +
+      clear + "[[object]]\nshape = \"difference\"\nposition = [-3, 1, -1]\nbeta = [0.5, 0, 0.3]\n" + clear +
+      "[[object.part]]\nshape = \"box\"\nsize = [1, 2, 1]\n"
+      "[[object.part]]\nshape = \"sphere\"\nradius = 0.6\n";
+  for (int i = 0; i < 24; ++i) {
+    more += "[[object]]\nshape = \"box\"\nsize = [0.4, 0.5, 0.6]\nposition = " +
+            vec(i % 6 - 3.0, i / 6 - 1.0, -2.0) + "\nbeta = [0.3, 0.2, 0.4]\n" + (i % 2 == 0 ? clear : "");
+  }
+  more +=
+      "[[object]]\nshape = \"sphere\"\nradius = 0.06\nposition = [-4, -1, -3]\n"
+      "repeat = { count = [9, 9, 3], step = [1, 0.5, 1] }\n" +
+      clear;
+  const std::string all = scene_of({.spheres = 40, .gamma = 40.0, .width = 60, .height = 40, .more = more});
+  expect_the_law(all, three_colours);
+  std::string dark = all;
+  for (std::size_t at = 0; (at = dark.find(clear)) != std::string::npos;) dark.erase(at, clear.size());
+  EXPECT_GT(different_values(render_text(all, three_colours).image, render_text(dark, three_colours).image),
+            100u);
+  expect_the_law(scene_of({.spheres = 1600, .gamma = 3.0, .width = 40, .height = 27, .more = more}),
+                 three_colours);
+}
+
 // Formulas, by either search, with a clock, with texture coordinates, with roots that are not resolved, and
 // with members.
 TEST(Sheets, AreTheLawForFormulas) {

@@ -86,6 +86,41 @@ std::string text(double v) {
   return out.str();
 }
 
+// The rotation R of B(a) B(b)⁻¹ = R B(w), by Rodrigues' formula: about a×b, with
+// tan(θ/2) = |a×b|/((1 + γ_a)(1 + γ_b) - a·b) (Ungar 1991).
+Mat3 wigner(const Vec3& a, const Vec3& b) {
+  const auto gamma = [](const Vec3& u) { return std::sqrt(1.0 + glm::dot(u, u)); };
+  const Vec3 normal = glm::cross(a, b);
+  const double size = glm::length(normal);
+  if (size == 0.0) return Mat3{1.0};
+  const double angle = 2.0 * std::atan2(size, (1.0 + gamma(a)) * (1.0 + gamma(b)) - glm::dot(a, b));
+  const Vec3 n = normal / size;
+  Mat3 r{1.0};
+  for (int column = 0; column < 3; ++column) {
+    Vec3 e{0.0};
+    e[column] = 1.0;
+    r[column] = std::cos(angle) * e + std::sin(angle) * glm::cross(n, e) +
+                (1.0 - std::cos(angle)) * glm::dot(n, e) * n;
+  }
+  return r;
+}
+
+// All that is at rest in frames whose axes turn.
+void turn(Redescription& result, std::map<std::string, Mat3>& rotation) {
+  CameraModel& camera = result.model.camera;
+  camera.position = rotation[camera.frame] * camera.position;
+  camera.direction = rotation[camera.frame] * camera.direction;
+  camera.up = rotation[camera.frame] * camera.up;
+  for (ObjectModel& o : result.model.objects) {
+    const Mat3& r = rotation[o.frame];
+    o.position = r * o.position;
+    o.rotate = euler_degrees(r * rotation_about(2, o.rotate.z) * rotation_about(1, o.rotate.y) *
+                             rotation_about(0, o.rotate.x));
+    result.rotation_of_object.push_back(r);
+  }
+  for (LightModel& l : result.model.lights) l.position = rotation[l.frame] * l.position;
+}
+
 }  // namespace
 
 std::string to_toml(const SceneModel& m) {
@@ -96,6 +131,7 @@ std::string to_toml(const SceneModel& m) {
     if (u > 0.0) s += "celerity = " + text(u) + "\nalong = " + text(f.celerity) + "\n";
     s += "origin = " + text(Vec3{f.origin[1], f.origin[2], f.origin[3]}) +
          "\norigin_time = " + text(f.origin[0]) + "\n";
+    if (!f.within.empty()) s += "within = \"" + f.within + "\"\n";
   }
   s += "[camera]\nframe = \"" + m.camera.frame + "\"\nposition = " + text(m.camera.position) +
        "\ndirection = " + text(m.camera.direction) + "\nup = " + text(m.camera.up) +
@@ -124,18 +160,19 @@ Redescription redescribed(const SceneModel& model, const Vec3& celerity) {
     f.celerity = {double(u[1]), double(u[2]), double(u[3])};
     f.origin = {double(origin[0]), double(origin[1]), double(origin[2]), double(origin[3])};
   }
-  CameraModel& camera = result.model.camera;
-  camera.position = rotation[camera.frame] * camera.position;
-  camera.direction = rotation[camera.frame] * camera.direction;
-  camera.up = rotation[camera.frame] * camera.up;
-  for (ObjectModel& o : result.model.objects) {
-    const Mat3& r = rotation[o.frame];
-    o.position = r * o.position;
-    o.rotate = euler_degrees(r * rotation_about(2, o.rotate.z) * rotation_about(1, o.rotate.y) *
-                             rotation_about(0, o.rotate.x));
-    result.rotation_of_object.push_back(r);
+  turn(result, rotation);
+  return result;
+}
+
+Redescription within_frame(const SceneModel& model, const Vec3& celerity) {
+  Redescription result{model, {}};
+  std::map<std::string, Mat3> rotation;
+  for (FrameModel& f : result.model.frames) {
+    f.within = "outer";
+    rotation[f.name] = glm::transpose(wigner(f.celerity, -celerity));
   }
-  for (LightModel& l : result.model.lights) l.position = rotation[l.frame] * l.position;
+  result.model.frames.push_back({"outer", celerity, {}, {}});
+  turn(result, rotation);
   return result;
 }
 

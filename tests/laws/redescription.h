@@ -16,6 +16,7 @@ struct FrameModel {
   std::string name;
   Vec3 celerity{0.0};
   Vec4 origin{};
+  std::string within;  ///< the frame in whose coordinates both are; empty: the world
 };
 
 /// Something at rest in a frame: what is turned by a change of description is kept apart from the rest.
@@ -61,5 +62,9 @@ struct Redescription {
 /// section 1. Frame F's new axes are the pure boost of the new world's, so everything in it turns by
 /// R = B(u') B(U) B(u)⁻¹.
 Redescription redescribed(const SceneModel& model, const Vec3& celerity);
+
+/// The scene as it stands within a frame that moves with `celerity`: no number of it but for the turned axes
+/// changes, so that the celerity may be any.
+Redescription within_frame(const SceneModel& model, const Vec3& celerity);
 
 }  // namespace backlight::test

@@ -120,6 +120,21 @@ TEST_P(Relativity, OneCommonLorentzTransformationChangesNoPixel) {
   }
 }
 
+// Within a frame of any celerity the numbers of the scene stay as they are, and so does the image.
+TEST(RelativityWithin, AllOfASceneWithinAFastFrameIsTheSameImage) {
+  const SceneModel original = model();
+  const Rendering a = render_text(to_toml(original));
+  for (const double celerity : {1e3, 1e6, 1e8}) {
+    const Vec3 axis{0.48, -0.6, 0.64};
+    const Redescription other = within_frame(original, celerity * axis);
+    const Comparison c = compare(a, render_text(to_toml(other.model)), other.rotation_of_object);
+    EXPECT_GT(c.seen, 1500);
+    EXPECT_EQ(c.other_id, 0) << celerity;
+    EXPECT_LT(c.data.error, 1e-6) << celerity << ' ' << c.data.where;
+    EXPECT_LT(c.colour.error, 1e-5) << celerity;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Celerities, Relativity, testing::Values(0.3, 3.0, 100.0, 1000.0));
 
 }  // namespace

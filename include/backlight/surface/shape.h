@@ -79,8 +79,7 @@ Shape quadric(const std::array<double, 10>& coefficients);
 /// such closing faces, as of a box. Texture: longitude and latitude about the y axis, as the sphere's.
 Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high);
 
-/// Whether the surface fits into no sphere (plane and quadric; an ellipsoid given as a quadric counts as
-/// such).
+/// Whether the surface fits into no sphere: a plane, and a quadric that is not surely an ellipsoid.
 bool is_infinite(const Shape& shape);
 
 /// Whether the shape has an inside. Of the closed forms all but the disk: a plane is the half-space y < 0, a

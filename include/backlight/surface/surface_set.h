@@ -70,8 +70,9 @@ class SurfaceSet {
   SurfaceSet& operator=(SurfaceSet&&) noexcept;
   ~SurfaceSet();
 
-  /// Takes a surface for which problem() is empty; returns its index: 0, 1, 2...
-  int add(const Shape& shape, const Placement& placement);
+  /// Takes a surface for which problem() is empty; returns its index: 0, 1, 2... One that casts no shadow is
+  /// seen, and in nothing's way: blocked() passes it over.
+  int add(const Shape& shape, const Placement& placement, bool casts_shadow = true);
 
   /// Lays the surfaces out for the search. To be called after the last add() and before any question.
   void build(SearchMethod method = SearchMethod::automatic);
@@ -80,6 +81,9 @@ class SurfaceSet {
 
   /// A surface's shape, as add() took it.
   [[nodiscard]] const Shape& shape(int surface) const;
+
+  /// Whether a surface casts a shadow, as add() was told.
+  [[nodiscard]] bool casts_shadow(int surface) const;
 
   /// The smallest λ in (0, lambda_limit) at which the ray meets a surface; of equal λ, the smallest index.
   [[nodiscard]] Hit nearest(const Vec3& origin, const Vec3& direction,
@@ -90,8 +94,8 @@ class SurfaceSet {
   [[nodiscard]] Hit nearest_bounded(const Vec3& origin, const Vec3& direction, double lambda_limit,
                                     const RayClock& clock) const;
 
-  /// Whether the ray meets any surface at a λ in the open interval (lambda_min, lambda_max),
-  /// lambda_min >= 0.
+  /// Whether the ray meets any surface that casts a shadow, at a λ in the open interval (lambda_min,
+  /// lambda_max), lambda_min >= 0.
   [[nodiscard]] bool blocked(const Vec3& origin, const Vec3& direction, double lambda_min, double lambda_max,
                              const RayClock& clock = {}) const;
 
@@ -119,8 +123,8 @@ class SurfaceSet {
   };
   void first_crossings_of(int surface, const Rays& rays, std::span<Hit> hits) const;
 
-  /// Whether one surface is met by each of many rays at a λ in the open interval (0, lambda_max): blocked()
-  /// of that surface.
+  /// Whether one surface, which casts a shadow, is met by each of many rays at a λ in the open interval
+  /// (0, lambda_max): blocked() of that surface.
   void blocked_by(int surface, const Rays& rays, double lambda_max, std::span<bool> blocked) const;
 
   /// resolve() of the hits of one surface, one for each ray: array i of `rays` as above. u and v are 0 if

@@ -18,7 +18,8 @@ namespace backlight {
 struct FarView {
   ExtendedTransform from_camera;
   ExtendedEvent camera_event;
-  BoundingSphere bounds;  ///< of all surfaces of the frame
+  BoundingSphere bounds;       ///< of those surfaces of the frame that have bounds
+  std::vector<int> unbounded;  ///< the others: rays are brought next to where they meet each
 };
 
 /// One frame of the scene as the camera's event has it.
@@ -26,7 +27,8 @@ struct FrameView {
   LorentzTransform<Rest, Camera> from_camera;
   Event<Rest> camera_event;  ///< the exposure, in the frame's coordinates
   const SceneFrame* scene = nullptr;
-  /// For γ > robust_gamma, where the surfaces have bounds; else null: there may be many frames.
+  /// For γ > robust_gamma, where there are surfaces or lights, and of the world; else null: there may be many
+  /// frames.
   std::shared_ptr<const FarView> far;
 };
 

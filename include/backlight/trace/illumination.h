@@ -31,6 +31,7 @@ struct Arrival {
 };
 
 /// The light of a point or distant lamp at `point`; empty when it shines on the other side of the surface.
-std::optional<Arrival> arrival(RayInFrames& rays, const SeenPoint& point, const LightView& light);
+std::optional<Arrival> arrival(const Hub& hub, RayInFrames& rays, const SeenPoint& point,
+                               const LightView& light);
 
 }  // namespace backlight

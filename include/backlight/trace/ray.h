@@ -39,7 +39,17 @@ struct RestRayEvents {
   }
 };
 
-/// The ray in this frame: one boost. In a frame of large γ it starts where it comes near the surfaces.
+/// The ray in this frame: one boost. In a frame of large γ it starts where it comes near the surfaces that
+/// have bounds.
 RestRayEvents in_frame(const FrameView& frame, const CameraRay& ray);
+
+/// The ray in this frame, which has a FarView, from the λ `start` on.
+RestRayEvents in_frame_from(const FrameView& frame, const CameraRay& ray, double start);
+
+/// λ - start where the ray enters the bounds, with room for the rounding of where that is; 0 from inside.
+double start_near(const BoundingSphere& bounds, const RestRayEvents& events);
+
+/// The ray's event at λ in this frame, which has a FarView.
+ExtendedEvent far_event(const FarView& far, const CameraRay& ray, const Extended& lambda);
 
 }  // namespace backlight

@@ -11,9 +11,10 @@ namespace backlight {
 
 /// The first surface back along a ray.
 struct FirstHit {
-  Hit hit;          ///< its λ counts from the start of the ray in that frame
-  int frame = -1;   ///< index of the surface's rest frame
-  Extended lambda;  ///< of the ray as a whole
+  Hit hit;             ///< its λ counts from `start`
+  int frame = -1;      ///< index of the surface's rest frame
+  double start = 0.0;  ///< λ from which the ray met it in that frame
+  Extended lambda;     ///< of the ray as a whole
   [[nodiscard]] bool found() const { return hit.found(); }
 };
 
@@ -49,6 +50,21 @@ class RayInFrames {
     return events_[i];
   }
 
+  /// The ray in the frame of a hit, begun where it met that: so it is from now on what in() gives.
+  const RestRayEvents& in_frame_of(const FirstHit& hit) {
+    const auto i = static_cast<std::size_t>(hit.frame);
+    if (in(hit.frame).start != hit.start) events_[i] = in_frame_from(hub_->frames[i], ray_, hit.start);
+    return events_[i];
+  }
+
+  /// The ray's event at λ, in frame `index`.
+  Event<Rest> event(int index, const Extended& lambda) {
+    const FrameView& frame = hub_->frames[static_cast<std::size_t>(index)];
+    if (!frame.far) return in(index).at(lambda);
+    const ExtendedEvent event = far_event(*frame.far, ray_, lambda);
+    return {double(event.t), event.x.rounded()};
+  }
+
  private:
   const Hub* hub_;
   CameraRay ray_;
@@ -56,6 +72,9 @@ class RayInFrames {
   std::vector<std::uint64_t> age_;
   std::uint64_t current_ = 0;
 };
+
+/// The first hit in one frame (of hub.occupied) at a λ below `limit`.
+FirstHit first_hit_in(int frame, const Hub& hub, RayInFrames& rays, double limit);
 
 /// The nearest hit over all frames: the smallest λ, compared across frames as it stands
 /// (docs/physics.md section 2); of equal λ, the frame that comes first.
