@@ -1,3 +1,4 @@
+#include <IexErrnoExc.h>
 #include <ImfFrameBuffer.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
@@ -123,6 +124,9 @@ class ExrWriter::Implementation {
     } catch (const std::bad_alloc&) {
       file_.abandon();
       throw;
+    } catch (const Iex::EnomemExc&) {
+      file_.abandon();
+      throw std::bad_alloc();
     } catch (const std::exception& exception) {
       error_ = file_.status().ok() ? "cannot write " + file_.path().string() + ": " + exception.what()
                                    : file_.status().error();
@@ -232,6 +236,8 @@ Result<ExrWriter> ExrWriter::open(const std::filesystem::path& path, const Image
     return ExrWriter(std::make_unique<Implementation>(std::move(file).value(), layout, header, threads));
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const Iex::EnomemExc&) {
+    throw std::bad_alloc();
   } catch (const std::exception& exception) {
     const std::string why = exception.what();
     // The stream's own failures already name the file.
