@@ -29,6 +29,7 @@ class CheckedStream : public Imf::OStream {
 
   void write(const char bytes[], int count) override {
     collected_.append(bytes, static_cast<std::size_t>(count));
+    taken_ += static_cast<std::uint64_t>(count);
     if (collected_.size() >= enough) flush();
   }
   std::uint64_t tellp() override { return file_.position() + collected_.size(); }
@@ -37,6 +38,9 @@ class CheckedStream : public Imf::OStream {
     flush();
     file_.seek(position);
   }
+
+  /// Bytes that were written so far, wherever.
+  [[nodiscard]] std::uint64_t taken() const { return taken_; }
 
   void flush() {
     const auto written = file_.write(collected_);
@@ -51,6 +55,7 @@ class CheckedStream : public Imf::OStream {
 
   AtomicFile& file_;
   std::string collected_;
+  std::uint64_t taken_ = 0;
 };
 
 /// What is wrong with the layout, or nothing.
@@ -144,7 +149,16 @@ class ExrWriter::Implementation {
       error_ = "cannot write " + file_.path().string() + ": rows of the picture are missing";
       return Failure{error_};
     }
-    output_.reset();  // writes the table of chunks and swallows what goes wrong: the file has kept it
+    // Writes the table of chunks, eight bytes each, and swallows what goes wrong. The file has kept that, but
+    // not a lack of memory on the way to it.
+    const std::uint64_t before = stream_.taken();
+    output_.reset();
+    const auto chunks =
+        static_cast<std::uint64_t>((layout_.data.height() + zip_chunk_rows - 1) / zip_chunk_rows);
+    if (file_.status().ok() && stream_.taken() - before != 8 * chunks) {
+      file_.abandon();
+      throw std::bad_alloc();
+    }
     try {
       stream_.flush();
     } catch (const std::exception&) {  // this too
