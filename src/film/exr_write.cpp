@@ -29,7 +29,9 @@ class CheckedStream : public Imf::OStream {
 
   void write(const char bytes[], int count) override {
     collected_.append(bytes, static_cast<std::size_t>(count));
-    taken_ += static_cast<std::uint64_t>(count);
+    // A number of 64 bits, zero: as the place of a chunk, one that was not written.
+    if (count != 8 || std::any_of(bytes, bytes + 8, [](char byte) { return byte != 0; }))
+      taken_ += static_cast<std::uint64_t>(count);
     if (collected_.size() >= enough) flush();
   }
   std::uint64_t tellp() override { return file_.position() + collected_.size(); }
@@ -39,7 +41,7 @@ class CheckedStream : public Imf::OStream {
     file_.seek(position);
   }
 
-  /// Bytes that were written so far, wherever.
+  /// Bytes that were written so far, wherever, without places of chunks that are not there.
   [[nodiscard]] std::uint64_t taken() const { return taken_; }
 
   void flush() {
