@@ -81,6 +81,10 @@ std::string command_for(const RenderOptions& options, const PlannedImage& image,
   return text + " -o again.exr";
 }
 
+PixelBox one_pixel(int x, int y) {
+  return {x, y, x + 1, y + 1};
+}
+
 Result<std::vector<PlannedImage>> plan_images(const RenderOptions& options,
                                               const std::vector<int>& scene_frames) {
   auto pattern = output_pattern(options);

@@ -22,6 +22,9 @@ struct PlannedImage {
 std::string command_for(const RenderOptions& options, const PlannedImage& image,
                         const std::optional<PixelBox>& crop);
 
+/// As a crop.
+PixelBox one_pixel(int x, int y);
+
 /// The images, in the order of rendering; `scene_frames` are those of the scene's [animation]. Their names
 /// get a number when there are several, and when they are some frames of an animation: jobs that render one
 /// frame each then write different files. Fails if the output is not named like an EXR file.

@@ -85,6 +85,7 @@ class RenderRun {
   void remove_superseded(const PlannedImage& image) const;
   void resume(const PlannedImage& image, PartialImage& partial);
   void snapshot(const Work& work);
+  static std::string lack_of_memory(const FilmSettings& film);
   void tell(const Work& work);
   void tell_time();
 

@@ -28,8 +28,9 @@ constexpr SignalMask mask_of(int number) {
 SignalMask mask_at_begin = 0;
 bool pipes_were_ignored = false;
 
-// The C library runs this when it has itself in order, before the constructors of any library.
-extern "C" void backlight_hold_signals() {
+// The C library runs this when it has itself in order, before the constructors of any library, those of
+// sanitizers among them.
+extern "C" __attribute__((no_sanitize("address", "thread", "undefined"))) void backlight_hold_signals() {
   const SignalMask held = mask_of(SIGINT) | mask_of(SIGTERM) | mask_of(SIGHUP) | mask_of(SIGUSR1);
   // Not by sigprocmask(), which sanitizers replace by one that is not ready yet.
   syscall(SYS_rt_sigprocmask, SIG_BLOCK, &held, &mask_at_begin, sizeof held);

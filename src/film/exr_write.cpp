@@ -1,3 +1,4 @@
+#include <IexErrnoExc.h>
 #include <ImfFrameBuffer.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
@@ -28,6 +29,9 @@ class CheckedStream : public Imf::OStream {
 
   void write(const char bytes[], int count) override {
     collected_.append(bytes, static_cast<std::size_t>(count));
+    // A number of 64 bits, zero: as the place of a chunk, one that was not written.
+    if (count != 8 || std::any_of(bytes, bytes + 8, [](char byte) { return byte != 0; }))
+      taken_ += static_cast<std::uint64_t>(count);
     if (collected_.size() >= enough) flush();
   }
   std::uint64_t tellp() override { return file_.position() + collected_.size(); }
@@ -36,6 +40,9 @@ class CheckedStream : public Imf::OStream {
     flush();
     file_.seek(position);
   }
+
+  /// Bytes that were written so far, wherever, without places of chunks that are not there.
+  [[nodiscard]] std::uint64_t taken() const { return taken_; }
 
   void flush() {
     const auto written = file_.write(collected_);
@@ -50,6 +57,7 @@ class CheckedStream : public Imf::OStream {
 
   AtomicFile& file_;
   std::string collected_;
+  std::uint64_t taken_ = 0;
 };
 
 /// What is wrong with the layout, or nothing.
@@ -126,6 +134,9 @@ class ExrWriter::Implementation {
     } catch (const std::bad_alloc&) {
       file_.abandon();
       throw;
+    } catch (const Iex::EnomemExc&) {
+      file_.abandon();
+      throw std::bad_alloc();
     } catch (const std::exception& exception) {
       error_ = file_.status().ok() ? "cannot write " + file_.path().string() + ": " + exception.what()
                                    : file_.status().error();
@@ -143,7 +154,16 @@ class ExrWriter::Implementation {
       error_ = "cannot write " + file_.path().string() + ": rows of the picture are missing";
       return Failure{error_};
     }
-    output_.reset();  // writes the table of chunks and swallows what goes wrong: the file has kept it
+    // Writes the table of chunks, eight bytes each, and swallows what goes wrong. The file has kept that, but
+    // not a lack of memory on the way to it.
+    const std::uint64_t before = stream_.taken();
+    output_.reset();
+    const auto chunks =
+        static_cast<std::uint64_t>((layout_.data.height() + zip_chunk_rows - 1) / zip_chunk_rows);
+    if (file_.status().ok() && stream_.taken() - before != 8 * chunks) {
+      file_.abandon();
+      throw std::bad_alloc();
+    }
     try {
       stream_.flush();
     } catch (const std::exception&) {  // this too
@@ -235,6 +255,8 @@ Result<ExrWriter> ExrWriter::open(const std::filesystem::path& path, const Image
     return ExrWriter(std::make_unique<Implementation>(std::move(file).value(), layout, header, threads));
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const Iex::EnomemExc&) {
+    throw std::bad_alloc();
   } catch (const std::exception& exception) {
     const std::string why = exception.what();
     // The stream's own failures already name the file.

@@ -22,9 +22,7 @@ class Misfortune : public Again {
  protected:
   // One image is there of another scene, and is to be replaced; the other is there in part.
   void SetUp() override {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "sanitizers replace the same functions";
-#endif
+    if (!misfortune_is_possible) GTEST_SKIP() << "sanitizers replace the same functions";
     Again::SetUp();
     write_scene("scene.toml", "[animation]\nframes = [1, 2]\n");
     expect_success(job + Arguments{"-o", "right/a.exr"});
@@ -118,6 +116,7 @@ class Misfortune : public Again {
   void fail_each(const std::string& kind, int error_number, const std::set<int>& codes, long most = 0) {
     if (getenv("BACKLIGHT_EVERY_MISFORTUNE") != nullptr) most = 0;
     const long all = count(kind);
+    if (all == 0 && kind == "memory") GTEST_SKIP() << "something else replaces malloc()";
     ASSERT_GT(all, 0);
     const long tries = most > 0 ? std::min(most, all) : all;
     for (long i = 0; i < tries && !HasFailure(); ++i)
