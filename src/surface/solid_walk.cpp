@@ -59,7 +59,8 @@ void SolidWalk::go_on() {
   count_root_solved();
   const bool unresolved = root.kind == RootKind::unresolved;
   const bool touch = inside == inside_;
-  if (!touch || keeps_touches_ || !unresolved) add({root.t, 0, unresolved}, touch ? Kind::touch : Kind::crossing);
+  if (!touch || keeps_touches_ || !unresolved)
+    add({root.t, 0, unresolved}, touch ? Kind::touch : Kind::crossing);
   inside_ = inside;
 }
 
