@@ -1,3 +1,4 @@
+// Longer than 400 lines: an image's whole way, from the claim to the PNG beside it, in one place.
 #include "render_run.h"
 
 #include <algorithm>

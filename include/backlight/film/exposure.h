@@ -48,10 +48,10 @@ double automatic_exposure(const LuminanceCounts& counts, double key = 0.18);
 /// What to show pictures with where nothing else was said. No pixel is ever shown brighter than it is on the
 /// film: what is dark stays dark.
 ///
-/// As they are, if no more than one pixel in a thousand is beyond white. Else the greatest luminance is shown
-/// as white, so that nothing is cut, and where the log-average luminance is above 1 it is exposed down to 1.
-/// The curve is Reinhard's, or, where that would show more than one pixel in a hundred as next to white,
-/// Drago's.
+/// As they are, if no more than one pixel in a thousand is beyond white. Else the luminance that one pixel in
+/// a thousand passes is shown as white, and where more than half of the pixels are above 1 they are exposed
+/// down until no more than half are. The curve is Reinhard's, or, where that would show more than one pixel
+/// in a hundred as next to white, Drago's.
 DisplayTransform automatic_transform(const LuminanceCounts& counts);
 
 /// What was asked for of a display transform. What was not follows from the pictures.

@@ -82,7 +82,7 @@ struct Light {
   Colour colour;                   ///< spectrum of unit strength
   /// Strength as a function of the light's own (frame) time: intensity of a point light, irradiance of a
   /// distant one; radiance of an ambient one, by the time of the surface's frame. `strength` when it does not
-  /// depend on time.
+  /// depend on time; when it does, the formula is divided by it.
   double strength = 1.0;
   bool shadows = true;  ///< whether what is in its way hides it; an ambient light's never does
   bool flickers = false;
