@@ -70,7 +70,10 @@ KeyTable film() {
            {.least = 1e-4, .greatest = 1}),
        number(
            "wavelengths", Nothing{}, "",
-           "Wavelengths that carry a colour where colours shift. Without it 56, or what `tolerance` needs.",
+           "How many wavelengths of a reflectance made from red, green and blue are known where colours "
+           "shift. "
+           "Without it 56, or what `tolerance` needs. Saturated colors have 236 at least. Lights, tables and "
+           "lines do not depend on it: they are summed whole.",
            whole(4, 1024)),
        number("seed", 0.0, "", "Another number gives other sample positions.", whole(0, 4294967295.0)),
        {"aovs",

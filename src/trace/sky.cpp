@@ -43,15 +43,11 @@ SeenStar seen(const Star& star, const Hub& hub, const Scene& scene, bool light_d
 
 // Film colour of the star's irradiance in the camera's frame, in film Y times steradians.
 LinearRgb illuminance(const Star& star, DopplerFactor<Camera, Rest> doppler, double gamma,
-                      const Effects& effects, const WavelengthSet& wavelengths, std::vector<double>& work) {
+                      const Effects& effects, const WavelengthSet& wavelengths) {
   const double flux = flux_factor(doppler, gamma, effects.towards_camera());
-  const Spectrum body = Spectrum::blackbody(star.temperature);
   const DopplerFactor<Camera, Rest> shift = effects.doppler ? doppler : DopplerFactor<Camera, Rest>{};
-  work.resize(wavelengths.nm().size());
-  for (std::size_t i = 0; i < work.size(); ++i) {
-    work[i] = body.at(wavelength_at_origin(shift, wavelengths.nm()[i])) * wavelength_density_factor(shift);
-  }
-  return star.illuminance * flux * wavelengths.film(work.data());
+  const auto body = wavelengths.lights().at(Spectrum::blackbody(star.temperature), shift.value);
+  return star.illuminance * flux * wavelength_density_factor(shift) * body->film();
 }
 
 }  // namespace
@@ -61,24 +57,25 @@ Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray) {
   return {sky.texture ? texture_at(sky, ray.direction) : sky.radiance.rgb};
 }
 
-LinearRgb sky_shifted(const Sky& sky, const RestRayEvents& ray, const WavelengthSet& set, Scratch& s) {
+LinearRgb sky_shifted(const ShadingContext& context, const RestRayEvents& ray, Scratch& s) {
+  const Sky& sky = context.scene->sky;
   if (!sky.emits) return LinearRgb{0.0};
-  if (!sky.texture) return shifted_colour(sky.radiance.spectrum, set, s);
-  const double* nm = shifted_wavelengths(set, s);
+  if (!sky.texture) return shifted_colour(context.spectra->sky(), s);
   // D65 times a reflectance of half the texel's largest component, as for any coloured light.
   const LinearRgb rgb = glm::max(texture_at(sky, ray.direction), 0.0);
   const double scale = 2.0 * std::max({rgb.r, rgb.g, rgb.b});
-  const SigmoidReflectance shape = upsample(scale > 0.0 ? rgb / scale : rgb);
-  Spectrum::d65().scaled(scale).evaluate(nm, set.size(), s.lamp.data(), *s.kernels);
-  Spectrum::sigmoid_reflectance(shape).evaluate(nm, set.size(), s.reflectance.data(), *s.kernels);
-  return set.film(s.lamp.data(), s.reflectance.data(), *s.kernels);
+  if (!(scale > 0.0)) return LinearRgb{0.0};
+  const auto [shape, set] = context.wavelengths->upsampled(rgb / scale, 0.0);
+  s.texel = Spectrum::sigmoid_reflectance(shape);
+  s.texel.evaluate(shifted_wavelengths(*set, s), set->size(), s.reflectance.data(), *s.kernels);
+  const WavelengthSet::Sampled sampled{s.reflectance.data(), &s.texel, s.shift};
+  return scale * set->film_under(Spectrum::d65(), s.shift, &sampled, s.lamp.data(), *s.kernels);
 }
 
 std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const WavelengthSet& wavelengths) {
   const Lens& lens = scene.camera.lens;
   const double gamma = hub.camera_from_sky.gamma();
   std::vector<StarImage> images;
-  std::vector<double> work;
   for (const Star& star : scene.sky.stars) {
     // A region may switch light delay, and so move the star: it is seen where it agrees with itself.
     for (const bool light_delay : {true, false}) {
@@ -89,7 +86,7 @@ std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const Wav
       if (effects.light_delay != light_delay) continue;
       const ImagePoint pixel{std::floor(point->x), std::floor(point->y)};
       const double area = pixel_solid_angle(lens, {pixel.x + 0.5, pixel.y + 0.5});
-      const LinearRgb light = illuminance(star, s.doppler, gamma, effects, wavelengths, work);
+      const LinearRgb light = illuminance(star, s.doppler, gamma, effects, wavelengths);
       images.push_back(
           {static_cast<int>(pixel.x), static_cast<int>(pixel.y), s.direction, light / area, light_delay});
     }
