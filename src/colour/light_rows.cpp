@@ -52,13 +52,17 @@ double logarithm_of(double x) {
   return 0.69314718055994530942 * log2_of_positive(Lanes<2>(x)).v[0];
 }
 
-LinearRgb sum_over_film(const ObserverSamples& light) {
-  LinearRgb sum{0.0};
+LinearRgb weighted_sum(const ObserverSamples& light, const WeightLanes& weights) {
+  Lanes<2> red_green = 0.0, blue = 0.0;
   for (std::size_t i = 0; i < light.size(); ++i) {
-    const auto& w = rec709::film_weights[i];
-    sum += light[i] * LinearRgb{w[0], w[1], w[2]};
+    red_green = red_green + Lanes<2>(light[i]) * Lanes<2>::load(weights.of[i]);
+    blue = blue + Lanes<2>(light[i]) * Lanes<2>::load(weights.of[i] + 2);
   }
-  return sum;
+  return {red_green.v[0], red_green.v[1], blue.v[0]};
+}
+
+LinearRgb sum_over_film(const ObserverSamples& light) {
+  return weighted_sum(light, film_weight_lanes);
 }
 
 ObserverSamples samples_of(const Spectrum& light, double shift) {
@@ -68,15 +72,23 @@ ObserverSamples samples_of(const Spectrum& light, double shift) {
   return values;
 }
 
+// (λ w)' by the neighbours.
+constexpr WeightLanes make_moment_slopes() {
+  WeightLanes slopes;
+  for (std::size_t i = 1; i + 1 < cie::sample_count; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double nm = cie::first_nm + static_cast<double>(i);
+      slopes.of[i][c] =
+          0.5 * ((nm + 1.0) * rec709::film_weights[i + 1][c] - (nm - 1.0) * rec709::film_weights[i - 1][c]);
+    }
+  }
+  return slopes;
+}
+
 // d/ds Σ w(λ) S(sλ) = -1/s Σ (λ w)' S(sλ), whatever teeth S has.
 LinearRgb film_slope(const ObserverSamples& light, double shift) {
-  LinearRgb sum{0.0};
-  const auto moment = [](std::size_t i) {
-    const auto& w = rec709::film_weights[i];
-    return (cie::first_nm + static_cast<double>(i)) * LinearRgb{w[0], w[1], w[2]};
-  };
-  for (std::size_t i = 1; i + 1 < light.size(); ++i) sum += light[i] * (moment(i + 1) - moment(i - 1));
-  return sum * (-0.5 / shift);
+  static constexpr WeightLanes moment_slopes = make_moment_slopes();
+  return weighted_sum(light, moment_slopes) * (-1.0 / shift);
 }
 
 template <class T>

@@ -169,7 +169,7 @@ SpectrumOrError Spectrum::tabulated(std::vector<double> wavelengths, std::vector
   if (no_lines || !wavelengths.empty() || !values.empty()) {
     fault = fault_of("spectrum", wavelengths, values, true);
   }
-  if (fault.empty() && !no_lines) fault = fault_of("line", line_wavelengths, line_values, false);
+  if (fault.empty() && !no_lines) fault = fault_of("list of lines", line_wavelengths, line_values, false);
   if (!fault.empty()) return {{}, std::move(fault)};
   std::vector<Line> lines;
   for (std::size_t i = 0; i < line_values.size(); ++i) lines.push_back({line_wavelengths[i], line_values[i]});

@@ -4,12 +4,28 @@
 #include <array>
 #include <vector>
 
+#include "backlight/base/lanes.h"
 #include "rec709.h"
 
 namespace backlight {
 
 /// The light at each of the observer's samples, 360 to 830 nm.
 using ObserverSamples = std::array<double, cie::sample_count>;
+
+/// Red, green, blue and 0 of each of the observer's samples, to be taken two at a time.
+struct WeightLanes {
+  double of[cie::sample_count][4]{};
+};
+
+constexpr WeightLanes make_film_weight_lanes() {
+  WeightLanes weights;
+  for (std::size_t i = 0; i < cie::sample_count; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) weights.of[i][c] = rec709::film_weights[i][c];
+  }
+  return weights;
+}
+
+inline constexpr WeightLanes film_weight_lanes = make_film_weight_lanes();
 
 /// One value a wavelength, for each of the film's channels.
 struct FilmWeights {
@@ -36,7 +52,14 @@ class SplineWeights {
     double value[2];
     double curvature[2];
   };
-  void solve_for_curvatures(std::vector<std::array<double, 3>>& right) const;
+  /// Red and green, blue and nothing.
+  struct Channels {
+    Lanes<2> red_green = 0.0;
+    Lanes<2> blue = 0.0;
+  };
+  void solve_for_curvatures(std::vector<Channels>& right) const;
+  static Channels seen(const ObserverSamples& light, std::size_t sample);
+  static Channels add(const Channels& sum, double factor, const Channels& more);
 
   std::vector<double> nm_;
   std::vector<Sample> samples_;

@@ -105,10 +105,9 @@ std::optional<Colour> read_light_spectrum(const TableView& table, std::string_vi
 
 bool light_lines_stand_alone(const TableView& table, std::string_view given, std::string_view spectrum) {
   if (!table.has("lines") || given.empty() || given == spectrum) return true;
-  table.error("lines",
-              "lines beside '" + std::string(given) + "': how strong they are relative to it is not said",
-              "give the continuous part as '" + std::string(spectrum) +
-                  "', whose values are in the same units, or another light for it");
+  table.error(
+      "lines", "lines beside '" + std::string(given) + "': how strong they are relative to it is not said",
+      "give the continuous part as '" + std::string(spectrum) + "', whose values are in the same units");
   return false;
 }
 
