@@ -8,7 +8,9 @@
 #include <stdexcept>
 
 #include "backlight/colour/spectrum.h"
+#include "kinks.h"
 #include "rec709.h"
+#include "spline_weights.h"
 
 namespace backlight {
 namespace {
@@ -44,44 +46,31 @@ std::vector<double> place_wavelengths(int count) {
   return nm;
 }
 
-// Second derivatives at the nodes of the natural cubic spline through (x, y), by the tridiagonal equations.
-std::vector<double> spline_curvatures(const std::vector<double>& x, const std::vector<double>& y) {
-  const std::size_t n = x.size();
-  std::vector<double> upper(n, 0.0), curvature(n, 0.0);
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double left = x[i] - x[i - 1], right = x[i + 1] - x[i];
-    const double bend = 6.0 * ((y[i + 1] - y[i]) / right - (y[i] - y[i - 1]) / left);
-    const double pivot = 2.0 * (left + right) - left * upper[i - 1];
-    upper[i] = right / pivot;
-    curvature[i] = (bend - left * curvature[i - 1]) / pivot;
-  }
-  curvature[n - 1] = 0.0;
-  for (std::size_t i = n - 1; i-- > 1;) curvature[i] -= upper[i] * curvature[i + 1];
-  return curvature;
+// A sigmoid's colour, and its derivatives by coefficients in t = (nm - centre) / half width.
+struct Seen {
+  LinearRgb colour{0.0};
+  Mat3 slopes{0.0};
+};
+
+constexpr double centre_nm = 595.0;
+constexpr double half_width_nm = 235.0;
+
+// A set takes reflectances that change by no more than this from one of its wavelengths to the next:
+// docs/colour.md has the measurements.
+constexpr double steepest_step = 0.11;
+// Where they change by more.
+constexpr int fine_count = 236;
+
+double largest(const Vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-double spline_at(const std::vector<double>& x, const std::vector<double>& y,
-                 const std::vector<double>& curvature, std::size_t cell, double at) {
-  const double width = x[cell + 1] - x[cell];
-  const double a = (x[cell + 1] - at) / width, b = 1.0 - a;
-  return a * y[cell] + b * y[cell + 1] +
-         ((a * a * a - a) * curvature[cell] + (b * b * b - b) * curvature[cell + 1]) * (width * width / 6.0);
-}
-
-// The film colour of the spline that is 1 at one node and 0 at the others.
-LinearRgb integrate_cardinal_spline(const std::vector<double>& nm, std::size_t node) {
-  std::vector<double> unit(nm.size(), 0.0);
-  unit[node] = 1.0;
-  const std::vector<double> curvature = spline_curvatures(nm, unit);
-  LinearRgb sum{0.0};
-  std::size_t cell = 0;
-  for (std::size_t i = 0; i < cie::sample_count; ++i) {
-    const double at = cie::first_nm + static_cast<double>(i);
-    while (cell + 2 < nm.size() && nm[cell + 1] < at) ++cell;
-    const auto& w = rec709::film_weights[i];
-    sum += spline_at(nm, unit, curvature, cell, at) * LinearRgb{w[0], w[1], w[2]};
-  }
-  return sum;
+// The change of a shape by (a, b, c) of a t² + b t + c.
+SigmoidReflectance moved(const SigmoidReflectance& shape, const Vec3& by) {
+  constexpr double centre = centre_nm / half_width_nm;
+  return {shape.c0 + by.x / (half_width_nm * half_width_nm),
+          shape.c1 + (by.y - 2.0 * centre * by.x) / half_width_nm,
+          shape.c2 + (by.x * centre - by.y) * centre + by.z, shape.middle, shape.half};
 }
 
 }  // namespace
@@ -89,12 +78,13 @@ LinearRgb integrate_cardinal_spline(const std::vector<double>& nm, std::size_t n
 WavelengthSet::WavelengthSet(int count) {
   if (count < 4) throw std::invalid_argument("a WavelengthSet needs at least 4 wavelengths");
   nm_ = place_wavelengths(count);
-  for (std::size_t i = 0; i < nm_.size(); ++i) {
-    const LinearRgb weight = integrate_cardinal_spline(nm_, i);
-    red_.push_back(weight.x);
-    green_.push_back(weight.y);
-    blue_.push_back(weight.z);
-  }
+  for (const double nm : nm_) places_.push_back((nm - centre_nm) / half_width_nm);
+  ObserverSamples even;
+  even.fill(1.0);
+  FilmWeights weights = SplineWeights(nm_).under(even);
+  red_ = std::move(weights.red);
+  green_ = std::move(weights.green);
+  blue_ = std::move(weights.blue);
   std::vector<double> daylight(nm_.size());
   Spectrum::d65().evaluate(nm_.data(), count, daylight.data());
   const LinearRgb white = film(daylight.data());
@@ -103,7 +93,95 @@ WavelengthSet::WavelengthSet(int count) {
     green_[i] /= white.y;
     blue_[i] /= white.z;
   }
-  daylight_ = std::make_shared<const ShiftedDaylight>(nm_, red_, green_, blue_);
+  step_ = (visible_end_nm - visible_begin_nm) / (count - 1);
+  lights_ = std::make_shared<const LightRows>(nm_);
+}
+
+LinearRgb WavelengthSet::film_under(const Spectrum& light, double shift, const Sampled* reflectance,
+                                    double* work, const SpectralKernels& kernels) const {
+  const std::optional<LightRows::Place> place = lights_->at(light, shift);
+  const std::optional<SigmoidReflectance> colour = light.shape();
+  if (!place || colour) {
+    for (std::size_t i = 0; i < nm_.size(); ++i) work[i] = shift * nm_[i];
+    // Coloured light is D65 times a reflectance; what is neither is the same at every wavelength.
+    (place ? Spectrum::sigmoid_reflectance(*colour) : light).evaluate(work, size(), work, kernels);
+    if (!place) return film(work, reflectance == nullptr ? nullptr : reflectance->values, kernels);
+  } else if (reflectance == nullptr) {
+    return place->film();
+  }
+  LinearRgb sum = reflectance == nullptr ? place->film(work, nullptr, kernels)
+                                         : place->film(reflectance->values, colour ? work : nullptr, kernels);
+  // Splines do not follow kinks: docs/colour.md equation (c3).
+  if (reflectance != nullptr) {
+    const Kinks kinks = kinks_of(reflectance->spectrum->form(), reflectance->shift);
+    for (int i = 0; i < kinks.count; ++i) {
+      const auto [nm, jump] = kinks.list[i];
+      sum += (colour ? jump * colour->at(shift * nm) : jump) * place->left_out(nm);
+    }
+  }
+  if (colour) {
+    const Kinks kinks = kinks_of(light.form(), shift);
+    for (int i = 0; i < kinks.count; ++i) {
+      const auto [nm, jump] = kinks.list[i];
+      const double at = reflectance == nullptr ? 1.0 : reflectance->spectrum->at(reflectance->shift * nm);
+      sum += jump * at * place->left_out(nm);
+    }
+  }
+  return sum;
+}
+
+const WavelengthSet& WavelengthSet::for_steepness(double steepness) const {
+  return steepness * step_ > steepest_step ? fine() : *this;
+}
+
+const WavelengthSet& WavelengthSet::fine() const {
+  if (size() >= fine_count) return *this;
+  static const WavelengthSet& fine = wavelength_set(fine_count);
+  return fine;
+}
+
+WavelengthSet::Upsampled WavelengthSet::upsampled(const LinearRgb& rgb, double steepness) const {
+  const SigmoidReflectance shape = upsample(rgb);
+  const WavelengthSet& set = for_steepness(std::max(steepness, steepness_of(shape)));
+  return {set.match(shape, rgb), &set};
+}
+
+SigmoidReflectance WavelengthSet::match(const SigmoidReflectance& start, const LinearRgb& rgb) const {
+  const LightRows::Row& white = *lights_->at(Spectrum::d65(), 1.0)->low;
+  const auto see = [&](const SigmoidReflectance& shape) {
+    Seen seen;
+    for (std::size_t i = 0; i < nm_.size(); ++i) {
+      const double x = (shape.c0 * nm_[i] + shape.c1) * nm_[i] + shape.c2;
+      const double q = 1.0 / std::sqrt(1.0 + x * x);
+      const LinearRgb weight{white.red[i], white.green[i], white.blue[i]};
+      seen.colour += (shape.middle + shape.half * x * q) * weight;
+      const LinearRgb slope = (shape.half * q * q * q) * weight;
+      const double t = places_[i];
+      seen.slopes[0] += (t * t) * slope;
+      seen.slopes[1] += t * slope;
+      seen.slopes[2] += slope;
+    }
+    return seen;
+  };
+  constexpr int steps = 3;
+  SigmoidReflectance best = start;
+  Seen seen = see(best);
+  for (int step = 0; step < steps; ++step) {
+    const Vec3 off = seen.colour - rgb;
+    if (!(largest(off) > 1e-8 * largest(rgb))) break;
+    const SigmoidReflectance trial = moved(best, -(glm::inverse(seen.slopes) * off));
+    const Seen next = see(trial);
+    if (!(largest(next.colour - rgb) < largest(off))) break;
+    best = trial;
+    seen = next;
+  }
+  return best;
+}
+
+Spectrum WavelengthSet::match(const Spectrum& spectrum, const LinearRgb& rgb) const {
+  const std::optional<SigmoidReflectance> shape = spectrum.shape();
+  if (!shape || spectrum.scale() == 0.0) return spectrum;
+  return spectrum.with_shape(match(*shape, rgb / spectrum.scale()));
 }
 
 const WavelengthSet& wavelength_set(int count) {
@@ -127,6 +205,11 @@ LinearRgb WavelengthSet::film(const double* lamp, const double* reflectance,
   double colour[3];
   kernels.film({red_.data(), green_.data(), blue_.data()}, lamp, reflectance, size(), colour);
   return {colour[0], colour[1], colour[2]};
+}
+
+double steepness_of(const Spectrum& spectrum) {
+  const std::optional<SigmoidReflectance> shape = spectrum.shape();
+  return shape ? steepness_of(*shape) : 0.0;
 }
 
 LinearRgb WavelengthSet::weight(int i) const {

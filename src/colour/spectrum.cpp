@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "backlight/colour/film_integral.h"
 #include "planck.h"
 #include "rec709.h"
 
@@ -16,28 +18,48 @@ double d65_joint(double nm) {
   return cie::d65_in_table(nm) * std::pow(nm, 5.0) * std::expm1(x);
 }
 
-double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  if (at <= x.front()) return y.front();
-  if (at >= x.back()) return y.back();
-  const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin());
-  const double fraction = (at - x[above - 1]) / (x[above] - x[above - 1]);
-  return y[above - 1] + fraction * (y[above] - y[above - 1]);
-}
+// Straight lines through the points (x, y). Wavelengths in rising order take no search.
+class Interpolation {
+ public:
+  Interpolation(const std::vector<double>& x, const std::vector<double>& y) : x_(x), y_(y) {}
 
-std::string fault_of(const std::vector<double>& wavelengths, const std::vector<double>& values) {
-  if (wavelengths.empty()) return "a spectrum needs at least one wavelength";
+  double at(double nm) {
+    if (x_.empty()) return 0.0;
+    if (nm <= x_.front()) return y_.front();
+    if (nm >= x_.back()) return y_.back();
+    // x[above - 1] <= nm < x[above]
+    constexpr int steps = 4;
+    for (int i = 0; i < steps && x_[above_] <= nm; ++i) ++above_;
+    if (x_[above_] <= nm || x_[above_ - 1] > nm) {
+      above_ = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), nm) - x_.begin());
+    }
+    const double fraction = (nm - x_[above_ - 1]) / (x_[above_] - x_[above_ - 1]);
+    return y_[above_ - 1] + fraction * (y_[above_] - y_[above_ - 1]);
+  }
+
+ private:
+  const std::vector<double>& x_;
+  const std::vector<double>& y_;
+  std::size_t above_ = 1;
+};
+
+// `what`: "spectrum" or "line".
+std::string fault_of(const std::string& what, const std::vector<double>& wavelengths,
+                     const std::vector<double>& values, bool ascending) {
+  if (wavelengths.empty()) return "a " + what + " needs at least one wavelength";
   if (wavelengths.size() != values.size()) {
-    return "a spectrum needs as many values as wavelengths; there are " + std::to_string(wavelengths.size()) +
-           " wavelengths and " + std::to_string(values.size()) + " values";
+    return "a " + what + " needs as many values as wavelengths; there are " +
+           std::to_string(wavelengths.size()) + " wavelengths and " + std::to_string(values.size()) +
+           " values";
   }
   const auto nth = [](std::size_t i) { return " (number " + std::to_string(i + 1) + ")"; };
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(wavelengths[i]) || wavelengths[i] <= 0.0) {
       return "a wavelength must be a positive number of nanometres" + nth(i);
     }
-    if (i > 0 && wavelengths[i] <= wavelengths[i - 1]) return "wavelengths must ascend" + nth(i);
-    if (!std::isfinite(values[i])) return "a spectrum's value must be finite" + nth(i);
-    if (values[i] < 0.0) return "a spectrum's value must not be negative" + nth(i);
+    if (ascending && i > 0 && wavelengths[i] <= wavelengths[i - 1]) return "wavelengths must ascend" + nth(i);
+    if (!std::isfinite(values[i])) return "a " + what + "'s value must be finite" + nth(i);
+    if (values[i] < 0.0) return "a " + what + "'s value must not be negative" + nth(i);
   }
   return {};
 }
@@ -45,8 +67,12 @@ std::string fault_of(const std::vector<double>& wavelengths, const std::vector<d
 // Of the exponential in Planck's law: what is left of a double bears 1/nm^5, and D^5.
 constexpr double greatest_log = 600.0;
 
-// The sum over the observer's table of the product of the spectra; `light` null: 1.
-LinearRgb sum_over_film(const Spectrum& radiance, const Spectrum* light) {
+// Of the product of the spectra; `light` null: 1.
+LinearRgb film_of_product(const Spectrum& radiance, const Spectrum* light) {
+  if (light != nullptr && (light->has_features() || radiance.has_features())) {
+    return integrate_film(*light, 1.0, &radiance, 1.0);
+  }
+  if (radiance.has_features()) return integrate_film(radiance, 1.0);
   std::array<double, cie::sample_count> nm, value, factor;
   for (std::size_t i = 0; i < nm.size(); ++i) nm[i] = cie::first_nm + static_cast<double>(i);
   radiance.evaluate_light(nm.data(), cie::sample_count, value.data());
@@ -125,29 +151,43 @@ Spectrum Spectrum::blackbody(double kelvin) {
 }
 
 Spectrum Spectrum::blackbody(double kelvin, double reference_kelvin) {
+  return planckian(kelvin, planck::log_film_luminance(reference_kelvin));
+}
+
+Spectrum Spectrum::planckian(double kelvin, double log_divisor) {
   Spectrum result;
   result.form_.kind = Kind::blackbody;
   result.form_.scale = 1.0;
   result.form_.c0 = kelvin;
-  result.form_.c1 = planck::log_film_luminance(reference_kelvin);
+  result.form_.c1 = log_divisor;
   return result;
 }
 
 Spectrum Spectrum::absolute_blackbody(double kelvin) {
-  Spectrum result;
-  result.form_.kind = Kind::blackbody;
-  result.form_.scale = 1.0;
-  result.form_.c0 = kelvin;
-  result.form_.c1 = -planck::log_absolute_luminance();
-  return result;
+  return planckian(kelvin, -planck::log_absolute_luminance());
 }
 
 SpectrumOrError Spectrum::tabulated(std::vector<double> wavelengths, std::vector<double> values) {
-  if (std::string fault = fault_of(wavelengths, values); !fault.empty()) return {{}, std::move(fault)};
+  return tabulated(std::move(wavelengths), std::move(values), {}, {});
+}
+
+SpectrumOrError Spectrum::tabulated(std::vector<double> wavelengths, std::vector<double> values,
+                                    std::vector<double> line_wavelengths, std::vector<double> line_values) {
+  const bool no_lines = line_wavelengths.empty() && line_values.empty();
+  std::string fault;
+  if (no_lines || !wavelengths.empty() || !values.empty()) {
+    fault = fault_of("spectrum", wavelengths, values, true);
+  }
+  if (fault.empty() && !no_lines) fault = fault_of("list of lines", line_wavelengths, line_values, false);
+  if (!fault.empty()) return {{}, std::move(fault)};
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < line_values.size(); ++i) lines.push_back({line_wavelengths[i], line_values[i]});
+  std::vector<Span> bright = bright_parts(wavelengths, values);
   Spectrum result;
   result.form_.kind = Kind::tabulated;
   result.form_.scale = 1.0;
-  result.table_ = std::make_shared<const Table>(Table{std::move(wavelengths), std::move(values)});
+  result.table_ = std::make_shared<const Table>(
+      Table{std::move(wavelengths), std::move(values), std::move(lines), std::move(bright)});
   return {std::move(result), {}};
 }
 
@@ -177,7 +217,8 @@ void Spectrum::evaluate(const double* nm, int n, double* out, const SpectralKern
     kernels.evaluate(form_, nm, n, out);
     return;
   }
-  for (int i = 0; i < n; ++i) out[i] = form_.scale * interpolate(table_->nm, table_->values, nm[i]);
+  Interpolation table(table_->nm, table_->values);
+  for (int i = 0; i < n; ++i) out[i] = form_.scale * table.at(nm[i]);
 }
 
 void Spectrum::evaluate_light(const double* nm, int n, double* out, const SpectralKernels& kernels) const {
@@ -198,6 +239,11 @@ bool Spectrum::is_black() const {
 
 bool Spectrum::is_grey() const {
   if (form_.scale == 0.0 || form_.kind == Kind::constant) return true;
+  if (form_.kind == Kind::tabulated) {
+    const auto& values = table_->values;
+    return table_->lines.empty() &&
+           std::ranges::all_of(values, [&](double v) { return v == values.front(); });
+  }
   return form_.kind == Kind::sigmoid && form_.c0 == 0.0 && form_.c1 == 0.0 && !form_.levelled;
 }
 
@@ -205,12 +251,61 @@ bool Spectrum::is_d65_shaped() const {
   return form_.scale == 0.0 || form_.kind == Kind::d65;
 }
 
-std::optional<double> Spectrum::share_of_d65() const {
-  return form_.kind == Kind::d65 ? std::optional(form_.scale) : std::nullopt;
+std::optional<SigmoidReflectance> Spectrum::shape() const {
+  if (form_.kind != Kind::sigmoid && form_.kind != Kind::illuminant) return std::nullopt;
+  return SigmoidReflectance{form_.c0, form_.c1, form_.c2, form_.middle, form_.half};
+}
+
+Spectrum Spectrum::with_shape(const SigmoidReflectance& shape) const {
+  Spectrum result = *this;
+  result.set_shape(shape);
+  return result;
+}
+
+std::span<const double> Spectrum::knots() const {
+  static const std::array<double, cie::d65_by_5_nm.size()> joints = [] {
+    std::array<double, cie::d65_by_5_nm.size()> nm{};
+    for (std::size_t i = 0; i < nm.size(); ++i) nm[i] = cie::first_nm + 5.0 * static_cast<double>(i);
+    return nm;
+  }();
+  static constexpr std::array<double, 4> levels{300.0, cie::first_nm, cie::last_nm, 890.0};
+  if (form_.kind == Kind::tabulated) return table_->nm;
+  if (form_.kind == Kind::d65 || form_.kind == Kind::illuminant) return joints;
+  if (form_.kind == Kind::sigmoid) return levels;
+  return {};
+}
+
+std::vector<Spectrum::Span> Spectrum::bright_parts(const std::vector<double>& nm,
+                                                   const std::vector<double>& values) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Span> parts;
+  for (std::size_t i = 0; i < nm.size(); ++i) {
+    if (values[i] == 0.0) continue;
+    // The straight lines to both neighbours, or the value kept beyond the ends.
+    const double begin = i == 0 ? 0.0 : nm[i - 1];
+    const double end = i + 1 == nm.size() ? infinity : nm[i + 1];
+    if (!parts.empty() && begin <= parts.back().end) {
+      parts.back().end = end;
+    } else {
+      parts.push_back({begin, end});
+    }
+  }
+  return parts;
+}
+
+std::span<const Spectrum::Span> Spectrum::bright() const {
+  static constexpr Span everywhere{0.0, std::numeric_limits<double>::infinity()};
+  if (form_.kind == Kind::tabulated) return table_->bright;
+  return {&everywhere, 1};
+}
+
+std::span<const Spectrum::Line> Spectrum::lines() const {
+  if (form_.kind != Kind::tabulated) return {};
+  return table_->lines;
 }
 
 LinearRgb film_colour(const Spectrum& emission) {
-  return sum_over_film(emission, nullptr);
+  return film_of_product(emission, nullptr);
 }
 
 LinearRgb colour_under_d65(const Spectrum& reflectance) {
@@ -218,7 +313,7 @@ LinearRgb colour_under_d65(const Spectrum& reflectance) {
 }
 
 LinearRgb colour_under(const Spectrum& light, const Spectrum& reflectance) {
-  return sum_over_film(reflectance, &light);
+  return film_of_product(reflectance, &light);
 }
 
 }  // namespace backlight

@@ -1,32 +1,20 @@
 #include <cmath>
-#include <limits>
 
 #include "compile_parts.h"
 
 namespace backlight {
 namespace {
 
-// A spectrum outright is scaled to film Y 1, as the others are.
-Colour normalised_light(const TableView& table, const Spectrum& spectrum) {
-  const LinearRgb rgb = film_colour(spectrum);
-  const double y = luminance(rgb);
-  if (!(y > 0.0)) {
-    table.error("spectrum", "this spectrum has no visible light, by which its strength is measured");
-    return white_light();
-  }
-  return {spectrum.scaled(1.0 / y), rgb / y};
-}
-
 Colour read_colour(const TableView& table, ResourceCache& cache) {
   const std::string_view given = table.one_of({"temperature", "color", "spectrum"});
   check_absolute(table, given);
+  if (!light_lines_stand_alone(table, given, "spectrum")) return white_light();
   if (given == "temperature") {
     if (const auto body = read_blackbody(table)) return *body;
   } else if (given == "color") {
     return coloured_light(table.vector("color"));
-  } else if (given == "spectrum") {
-    const auto spectrum = read_spectrum_key(table, cache, std::numeric_limits<double>::infinity());
-    if (spectrum) return normalised_light(table, *spectrum);
+  } else if (const auto spectrum = read_light_spectrum(table, "spectrum", cache)) {
+    return *spectrum;
   }
   return white_light();
 }

@@ -109,7 +109,8 @@ std::string background_words(const Scene& scene) {
 
 std::string model_words(const Needs& needs) {
   std::string text = needs.spectral ? "spectral: " + needs.why + "; " + std::to_string(needs.wavelengths) +
-                                          " wavelengths, " + needs.why_so_many
+                                          " wavelengths for reflectances, " + needs.why_so_many +
+                                          "; lights, tables and lines are summed whole"
                                     : "red, green, blue: " + needs.why;
   text += needs.shadow_rays ? "; shadow rays" : "; no shadow rays";
   text += needs.textures > 0 ? "; " + plural(needs.textures, "texture") + " by OpenImageIO"

@@ -11,8 +11,7 @@ KeyTable light() {
       "A light, at rest in its frame. Its strength may be an expression of `t`, which is then the light's "
       "own time: a "
       "flickering lamp; below zero the lamp is off. At most one of `temperature`, `color` and `spectrum` is "
-      "given; without them it is "
-      "D65, white.",
+      "given; without them, and without `lines`, it is D65, white.",
       {text("name", "For error messages and `-D light.NAME.key=value`."),
        choice("type", std::string("point"), {"point", "distant", "ambient"},
               "`point`: a lamp without size. `distant`: parallel light from infinity. `ambient`: the same "
@@ -36,7 +35,11 @@ KeyTable light() {
        structured("spectrum", {{ValueKind::table, 0, "spectrum"}, {ValueKind::path}},
                   "Relative power by wavelength, scaled so that its film Y is the strength: a table, or a "
                   "CSV file of "
-                  "wavelengths in nm and values. Outside the given wavelengths the end values are kept.")},
+                  "wavelengths in nm and values. Outside the given wavelengths the end values are kept. "
+                  "However narrow its peaks are, they are seen at any shift."),
+       structured("lines", {{ValueKind::table, 0, "lines"}},
+                  "Light of single wavelengths, alone or beside `spectrum`: a sodium lamp, a laser. The film "
+                  "Y of all of it together, at rest, is the strength.")},
       "type"};
   add_motion_or_frame(table.keys);
   return table;

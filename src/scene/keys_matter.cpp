@@ -60,7 +60,13 @@ KeyTable material() {
                "Beside `temperature`: the film Y of the emission is the blackbody's luminance in cd/m² times "
                "`emission` and `exposure` of `[film]`."),
        numbers("emission_color", 3, Nothing{}, "", "The emission's color, which `emission` multiplies.",
-               at_least(0))},
+               at_least(0)),
+       structured("emission_spectrum", {{ValueKind::table, 0, "spectrum"}, {ValueKind::path}},
+                  "The emission's relative power by wavelength, scaled so that its film Y is `emission`: as "
+                  "a light's `spectrum`."),
+       structured("lines", {{ValueKind::table, 0, "lines"}},
+                  "Emission of single wavelengths, alone or beside `emission_spectrum`: a glowing gas. The "
+                  "film Y of all of it together, at rest, is `emission`.")},
       ""};
 }
 
@@ -87,6 +93,19 @@ KeyTable spectrum() {
           "Values by wavelength, joined by straight lines.",
           {numbers("wavelengths", 0, Required{}, "nm", "In rising order.", above(0)),
            numbers("values", 0, Required{}, "", "One for each wavelength.", at_least(0))},
+          ""};
+}
+
+KeyTable lines() {
+  return {"lines",
+          "lines = { ... }",
+          "Light of single wavelengths. Each arrives at the wavelength that the motions give, with all of "
+          "its power, and is seen as the observer sees that wavelength.",
+          {numbers("wavelengths", 0, Required{}, "nm", "At rest, in any order.", above(0)),
+           numbers("values", 0, Required{}, "",
+                   "The power of each, relative to the others'. Beside a spectrum, a line of value 1 has as "
+                   "much power as a spectrum of value 1 has over one nanometre.",
+                   at_least(0))},
           ""};
 }
 
@@ -277,7 +296,7 @@ std::vector<KeyTable> shapes() {
 }  // namespace
 
 std::vector<KeyTable> matter_tables() {
-  std::vector<KeyTable> tables{frame(), material(), checker(), spectrum(), object()};
+  std::vector<KeyTable> tables{frame(), material(), checker(), spectrum(), lines(), object()};
   for (KeyTable& shape : shapes()) tables.push_back(std::move(shape));
   tables.push_back(part());
   tables.push_back(repeat());

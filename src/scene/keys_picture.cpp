@@ -70,7 +70,10 @@ KeyTable film() {
            {.least = 1e-4, .greatest = 1}),
        number(
            "wavelengths", Nothing{}, "",
-           "Wavelengths that carry a colour where colours shift. Without it 56, or what `tolerance` needs.",
+           "How many wavelengths of a reflectance made from red, green and blue are known where colours "
+           "shift. "
+           "Without it 56, or what `tolerance` needs. Saturated colors have 236 at least. Lights, tables and "
+           "lines do not depend on it: they are summed whole.",
            whole(4, 1024)),
        number("exposure", 1.0, "",
               "Multiplies every film value. Of light with `absolute = true` it is the film value of 1 cd/m²: "

@@ -24,20 +24,20 @@ constexpr std::size_t most_exact_spectra = 200;
 
 // A table that reaches nowhere near visible light is in another unit, or does not do what it seems to: at
 // rest its end value is all there is of it. False if that is an error.
-bool are_nanometres(const TableView& table, const SpectrumTable& points) {
+bool are_nanometres(const TableView& table, std::string_view key, const SpectrumTable& points) {
   if (points.wavelengths.empty() || points.values.empty()) return true;  // reported by who makes the spectrum
   const double least = *std::ranges::min_element(points.wavelengths);
   const double greatest = *std::ranges::max_element(points.wavelengths);
   const std::string reach = "from " + number_text(least) + " to " + number_text(greatest);
   if (greatest < shortest_plausible || least > longest_plausible) {
-    table.error("spectrum", "its wavelengths go " + reach + ", which cannot be nanometres",
+    table.error(key, "its wavelengths go " + reach + ", which cannot be nanometres",
                 "visible light is from 360 to 830 nm; multiply metres by 1e9, micrometres by 1000");
     return false;
   }
-  if (greatest < shortest_visible || least > longest_visible) {
+  if (key != "lines" && (greatest < shortest_visible || least > longest_visible)) {
     const double kept = greatest < shortest_visible ? points.values.back() : points.values.front();
     table.values().diagnostics.warning(
-        table.values().description.span(table.place("spectrum")),
+        table.values().description.span(table.place(key)),
         "none of its wavelengths, " + reach + " nm, is visible: at rest it is " + number_text(kept) +
             " throughout",
         "visible light is from 360 to 830 nm; multiply metres by 1e9, micrometres by 1000");
@@ -73,32 +73,82 @@ std::shared_ptr<const Texture> read_texture(const TableView& table, std::string_
   return nullptr;
 }
 
-std::optional<Spectrum> read_spectrum_key(const TableView& table, ResourceCache& cache, double greatest) {
-  const Node* written = table.node_of("spectrum");
+namespace {
+
+// The points that a key gives as a table or, if it may, as a file; nothing when they are wrong (and
+// reported).
+std::optional<SpectrumTable> read_points(const TableView& table, std::string_view key,
+                                         std::string_view keys_of_table, ResourceCache& cache) {
+  const Node* written = table.node_of(key);
   if (written == nullptr || !written->valid()) return std::nullopt;
-  SpectrumTable points;
   if (written->text() != nullptr) {
     auto read = cache.spectrum(resolve_path(table.values(), *written));
     if (!read.ok()) {
-      table.error("spectrum", read.error());
+      table.error(key, read.error());
       return std::nullopt;
     }
-    points = std::move(read).value();
-  } else {
-    const TableView keys = table.table("spectrum", "spectrum");
-    if (!keys.has_valid("wavelengths") || !keys.has_valid("values")) return std::nullopt;  // reported before
-    const std::size_t errors = table.values().diagnostics.error_count();
-    points = {keys.numbers("wavelengths"), keys.numbers("values")};
-    if (table.values().diagnostics.error_count() > errors) return std::nullopt;
+    return are_nanometres(table, key, read.value()) ? std::optional(std::move(read).value()) : std::nullopt;
   }
-  if (std::any_of(points.values.begin(), points.values.end(), [&](double v) { return v > greatest; })) {
-    table.error("spectrum", "a reflectance must be at most " + number_text(greatest));
+  const TableView keys = table.table(key, keys_of_table);
+  if (!keys.has_valid("wavelengths") || !keys.has_valid("values")) return std::nullopt;  // reported before
+  const std::size_t errors = table.values().diagnostics.error_count();
+  SpectrumTable points{keys.numbers("wavelengths"), keys.numbers("values")};
+  if (table.values().diagnostics.error_count() > errors) return std::nullopt;
+  return are_nanometres(table, key, points) ? std::optional(std::move(points)) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Spectrum> read_reflectance_spectrum(const TableView& table, ResourceCache& cache) {
+  auto points = read_points(table, "spectrum", "spectrum", cache);
+  if (!points) return std::nullopt;
+  if (std::any_of(points->values.begin(), points->values.end(), [](double v) { return v > 1.0; })) {
+    table.error("spectrum", "a reflectance must be at most 1");
     return std::nullopt;
   }
-  if (!are_nanometres(table, points)) return std::nullopt;
-  SpectrumOrError made = Spectrum::tabulated(std::move(points.wavelengths), std::move(points.values));
+  SpectrumOrError made = Spectrum::tabulated(std::move(points->wavelengths), std::move(points->values));
   if (!made.spectrum) table.error("spectrum", made.error);
   return made.spectrum;
+}
+
+std::optional<Colour> read_light_spectrum(const TableView& table, std::string_view spectrum,
+                                          ResourceCache& cache) {
+  SpectrumTable parts[2];
+  const std::string_view keys[2] = {spectrum, "lines"};
+  const std::string_view tables[2] = {"spectrum", "lines"};
+  std::string_view written;
+  for (int i = 0; i < 2; ++i) {
+    if (!table.has(keys[i])) continue;
+    auto points = read_points(table, keys[i], tables[i], cache);
+    if (!points) return std::nullopt;
+    // By itself first, for an error at its own place.
+    const SpectrumOrError alone = i == 0 ? Spectrum::tabulated(points->wavelengths, points->values)
+                                         : Spectrum::tabulated({}, {}, points->wavelengths, points->values);
+    if (!alone.spectrum) {
+      table.error(keys[i], alone.error);
+      return std::nullopt;
+    }
+    parts[i] = std::move(*points);
+    written = keys[i];
+  }
+  if (written.empty()) return std::nullopt;
+  const auto made = Spectrum::tabulated(std::move(parts[0].wavelengths), std::move(parts[0].values),
+                                        std::move(parts[1].wavelengths), std::move(parts[1].values));
+  const LinearRgb rgb = film_colour(*made.spectrum);
+  const double y = luminance(rgb);
+  if (!(y > 0.0)) {
+    table.error(written, "this spectrum has no visible light, by which its strength is measured");
+    return std::nullopt;
+  }
+  return Colour{made.spectrum->scaled(1.0 / y), rgb / y};
+}
+
+bool light_lines_stand_alone(const TableView& table, std::string_view given, std::string_view spectrum) {
+  if (!table.has("lines") || given.empty() || given == spectrum) return true;
+  table.error(
+      "lines", "lines beside '" + std::string(given) + "': how strong they are relative to it is not said",
+      "give the continuous part as '" + std::string(spectrum) + "', whose values are in the same units");
+  return false;
 }
 
 Colour white_light() {
@@ -207,7 +257,7 @@ void Materials::read_reflectance(const TableView& table, Material& material) {
         pending_.push_back({materials_.size() - 1, checker.get(), square, uv, ir});
       }
     }
-  } else if (const auto spectrum = read_spectrum_key(table, cache_, 1.0)) {
+  } else if (const auto spectrum = read_reflectance_spectrum(table, cache_)) {
     material.reflectance = {*spectrum, colour_under_d65(*spectrum)};
     if (uv || ir)
       table.error(uv ? "uv" : "ir", "'spectrum' already says what is reflected outside the visible");
@@ -228,18 +278,24 @@ std::shared_ptr<Checker> Materials::read_checker(const TableView& table) {
 void Materials::read_emission(const TableView& table, Material& material) {
   const bool absolute = table.boolean("absolute");
   const double emission = absolute && !table.has("emission") ? 1.0 : table.number("emission");
-  const std::string_view given = table.one_of({"temperature", "emission_color"});
+  std::string_view given = table.one_of({"temperature", "emission_color", "emission_spectrum"});
   check_absolute(table, given);
+  const bool wanted = light_lines_stand_alone(table, given, "emission_spectrum");
+  if (given.empty() && table.has("lines")) given = "lines";
   if (!given.empty() && !absolute && !table.has("emission")) {
     table.error(given, "'" + std::string(given) + "' is that of the emission, and there is none",
                 "add emission = 1, or remove it");
   }
-  if (!(emission > 0.0)) return;
+  if (!(emission > 0.0) || !wanted) return;
   Colour light = white_light();
   if (given == "temperature") {
     if (const auto body = read_blackbody(table)) light = *body;
   } else if (given == "emission_color") {
     light = coloured_light(table.vector("emission_color"));
+  } else if (!given.empty()) {
+    const auto spectrum = read_light_spectrum(table, "emission_spectrum", cache_);
+    if (!spectrum) return;
+    light = *spectrum;
   }
   material.emission = std::make_shared<const Colour>(times(times(light, emission), exposure_));
 }

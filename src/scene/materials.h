@@ -20,9 +20,18 @@ std::filesystem::path resolve_path(const ImageValues& values, const Node& writte
 std::shared_ptr<const Texture> read_texture(const TableView& table, std::string_view key,
                                             ResourceCache& cache);
 
-/// The spectrum that the key `spectrum` gives as a table or a file; nothing when it is wrong (and reported).
-/// `greatest`: no value may be larger.
-std::optional<Spectrum> read_spectrum_key(const TableView& table, ResourceCache& cache, double greatest);
+/// The reflectance that the key `spectrum` gives as a table or a file; nothing when it is wrong (and
+/// reported).
+std::optional<Spectrum> read_reflectance_spectrum(const TableView& table, ResourceCache& cache);
+
+/// The light of film Y 1 that the key `spectrum` (as it is called in this table) and `lines` give together;
+/// nothing when neither is there, or wrong (and reported).
+std::optional<Colour> read_light_spectrum(const TableView& table, std::string_view spectrum,
+                                          ResourceCache& cache);
+
+/// Reports `lines` beside `given`, which is another key for the colour of a light than `spectrum`; false
+/// then.
+bool light_lines_stand_alone(const TableView& table, std::string_view given, std::string_view spectrum);
 
 /// A light of film Y 1 (for a colour: of that colour): D65, a blackbody or a coloured illuminant.
 Colour white_light();

@@ -78,7 +78,7 @@ void choose_model(const Scene& scene, Needs& needs) {
   if (needs.spectral) {
     const bool given = scene.film.wavelengths > 0;
     needs.wavelengths = given ? scene.film.wavelengths : default_wavelength_count;
-    needs.why_so_many = given ? "as given" : "the default, enough for any colours";
+    needs.why_so_many = given ? "as given" : "the default";
   }
   if (needs.spectral) {
     needs.why = shown_motion;

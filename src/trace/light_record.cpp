@@ -18,7 +18,7 @@ void Tracer::add_light(const CameraRay& ray, const Effects& effects, SurfaceReco
   const FirstHit hit = first_hit(hub_, scratch.rays);
   const int frame = hit.found() ? hit.frame : scene_->sky.frame;
   const RestRayEvents& events = scratch.rays.in(frame);
-  const ShadingContext context{scene_, &hub_, &rest_colours_};
+  const ShadingContext context = shading();
   Radiance<Rest> radiance;
   if (hit.found()) {
     const SeenPoint point = seen_point(hub_, scratch.rays, hit);

@@ -53,12 +53,7 @@ void for_each_lamp(const ShadingContext& context, const SeenPoint& point, const 
 }  // namespace
 
 Scratch::Scratch(const Hub& hub, const Scene& scene, std::size_t count, InstructionSet set)
-    : rays(hub),
-      kernels(&spectral_kernels(set)),
-      wavelengths(count),
-      at_light(count),
-      reflectance(count),
-      lamp(count) {
+    : rays(hub), kernels(&spectral_kernels(set)), wavelengths(count), reflectance(count), lamp(count) {
   for (const Light& light : scene.lights) light_variables.push_back(light.variables);
 }
 
@@ -86,13 +81,12 @@ LinearRgb shade_shifted(const ShadingContext& context, const SeenPoint& point, c
                         Scratch& s) {
   const int index = material_of(*context.scene, point.hit, point.surface);
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
-  const WavelengthSet& set = *context.wavelengths;
-  LinearRgb sum = emitted_colour(material, set, s);
-  const std::optional<double> grey = fill_reflectance(material, point.surface.u, point.surface.v, set, s);
+  LinearRgb sum = emitted_colour(context, index, s);
+  const Reflectance reflectance = fill_reflectance(context, index, point.surface.u, point.surface.v, s);
   for_each_lamp(context, point, effects, material, s,
                 [&](std::size_t light, double irradiance, double specular, const Arrival& a) {
-                  const LampColours lamp =
-                      lamp_colours(context.scene->lights[light], a.doppler, material, grey, set, s);
+                  const LampColours lamp = lamp_colours(context.spectra->light(light), a.doppler,
+                                                        material.specular > 0.0, reflectance, s);
                   sum += reflected_colour(lamp, a.doppler, irradiance, specular);
                 });
   return sum;

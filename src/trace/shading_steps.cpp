@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "backlight/colour/film_integral.h"
 #include "backlight/colour/upsampling.h"
 
 namespace backlight {
@@ -23,76 +24,73 @@ double strength_at(const Light& light, double own_time, double c, std::vector<do
 }
 
 const double* shifted_wavelengths(const WavelengthSet& set, Scratch& s) {
-  if (!s.shifted) {
+  if (s.shifted != set.size()) {
     const DopplerFactor<Camera, Rest> doppler{s.shift};
-    for (std::size_t i = 0; i < s.wavelengths.size(); ++i) {
+    for (std::size_t i = 0; i < set.nm().size(); ++i) {
       s.wavelengths[i] = wavelength_at_origin(doppler, set.nm()[i]);
     }
-    s.shifted = true;
+    s.shifted = set.size();
   }
   return s.wavelengths.data();
 }
 
-LinearRgb shifted_colour(const Spectrum& emission, const WavelengthSet& set, Scratch& s) {
-  if (const std::optional<double> share = emission.share_of_d65()) {
-    if (const auto place = set.daylight().at(s.shift)) return *share * place->film();
-  }
-  emission.evaluate_light(shifted_wavelengths(set, s), set.size(), s.lamp.data(), *s.kernels);
-  return set.film(s.lamp.data(), *s.kernels);
+LinearRgb shifted_colour(const SeenSpectrum& emission, Scratch& s) {
+  const Spectrum& spectrum = *emission.spectrum;
+  if (spectrum.has_features()) return integrate_film(spectrum, s.shift);
+  return emission.set->film_under(spectrum, s.shift, nullptr, s.lamp.data(), *s.kernels);
 }
 
-LinearRgb emitted_colour(const Material& material, const WavelengthSet& set, Scratch& s) {
-  return material.emission ? shifted_colour(material.emission->spectrum, set, s) : LinearRgb{0.0};
-}
-
-std::optional<double> fill_reflectance(const Material& material, double u, double v, const WavelengthSet& set,
-                                       Scratch& s) {
-  if (material.texture) {
-    const SigmoidReflectance shape = upsample(texture_reflectance(material, u, v));
-    const Spectrum texel = Spectrum::sigmoid_reflectance(shape, material.uv, material.ir);
-    texel.evaluate(shifted_wavelengths(set, s), set.size(), s.reflectance.data(), *s.kernels);
-    return {};
-  }
-  const Colour& colour =
-      material.checker
-          ? material.checker->colours[static_cast<std::size_t>(checker_slot(*material.checker, u, v))]
-          : material.reflectance;
-  if (colour.spectrum.is_grey()) return colour.spectrum.at(visible_begin_nm);
-  colour.spectrum.evaluate(shifted_wavelengths(set, s), set.size(), s.reflectance.data(), *s.kernels);
-  return {};
+LinearRgb emitted_colour(const ShadingContext& context, int index, Scratch& s) {
+  const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
+  return material.emission ? shifted_colour(context.spectra->emission(index), s) : LinearRgb{0.0};
 }
 
 namespace {
 
-// Into s.lamp, at D D_j times the film's wavelengths.
-void fill_lamp(const Spectrum& lamp, DopplerFactor<Rest, Source> doppler, const WavelengthSet& set,
-               Scratch& s) {
-  const double* nm = shifted_wavelengths(set, s);
-  for (std::size_t i = 0; i < s.wavelengths.size(); ++i) {
-    s.at_light[i] = wavelength_at_origin(doppler, nm[i]);
+SeenSpectrum seen_reflectance(const ShadingContext& context, int index, double u, double v, Scratch& s) {
+  const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
+  if (!material.texture) {
+    const int slot = material.checker ? checker_slot(*material.checker, u, v) : 0;
+    return context.spectra->reflectance(index, slot);
   }
-  lamp.evaluate_light(s.at_light.data(), set.size(), s.lamp.data(), *s.kernels);
+  const auto [shape, set] =
+      context.wavelengths->upsampled(texture_reflectance(material, u, v), context.spectra->steepest_light());
+  s.texel = Spectrum::sigmoid_reflectance(shape, material.uv, material.ir);
+  return {&s.texel, set};
 }
 
 }  // namespace
 
-LampColours lamp_colours(const Light& light, DopplerFactor<Rest, Source> doppler, const Material& material,
-                         std::optional<double> grey, const WavelengthSet& set, Scratch& s) {
-  const Spectrum& lamp = light.colour.spectrum;
-  const bool whole = grey || material.specular > 0.0;
-  const std::optional<double> share = lamp.share_of_d65();
-  const auto daylight = share ? set.daylight().at(wavelength_at_origin(doppler, s.shift)) : std::nullopt;
-  LampColours colours;
-  if (daylight) {
-    if (whole) colours.whole = *share * daylight->film();
-    if (!grey) daylight->fill(s.lamp.data(), *s.kernels);
-  } else {
-    fill_lamp(lamp, doppler, set, s);
-    if (whole) colours.whole = set.film(s.lamp.data(), *s.kernels);
+Reflectance fill_reflectance(const ShadingContext& context, int index, double u, double v, Scratch& s) {
+  Reflectance reflectance{seen_reflectance(context, index, u, v, s), {}};
+  const auto& [spectrum, set] = reflectance.seen;
+  if (spectrum->is_grey()) {
+    reflectance.grey = spectrum->at(visible_begin_nm);
+  } else if (!spectrum->has_features()) {
+    spectrum->evaluate(shifted_wavelengths(*set, s), set->size(), s.reflectance.data(), *s.kernels);
   }
-  colours.reflected =
-      grey ? *grey * colours.whole
-           : (daylight ? *share : 1.0) * set.film(s.lamp.data(), s.reflectance.data(), *s.kernels);
+  return reflectance;
+}
+
+LampColours lamp_colours(const SeenSpectrum& lamp, DopplerFactor<Rest, Source> doppler, bool has_lobe,
+                         const Reflectance& reflectance, Scratch& s) {
+  const Spectrum& light = *lamp.spectrum;
+  const double shift = wavelength_at_origin(doppler, s.shift);
+  const bool features = light.has_features();
+  LampColours colours;
+  if (reflectance.grey || has_lobe) {
+    colours.whole = features ? integrate_film(light, shift)
+                             : lamp.set->film_under(light, shift, nullptr, s.lamp.data(), *s.kernels);
+  }
+  const auto& [spectrum, set] = reflectance.seen;
+  if (reflectance.grey) {
+    colours.reflected = *reflectance.grey * colours.whole;
+  } else if (features || spectrum->has_features()) {
+    colours.reflected = integrate_film(light, shift, spectrum, s.shift);
+  } else {
+    const WavelengthSet::Sampled sampled{s.reflectance.data(), spectrum, s.shift};
+    colours.reflected = set->film_under(light, shift, &sampled, s.lamp.data(), *s.kernels);
+  }
   return colours;
 }
 

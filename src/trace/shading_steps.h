@@ -22,21 +22,27 @@ double strength_at(const Light& light, double own_time, double c, std::vector<do
 /// What follows is at D times the film's wavelengths.
 inline void shift_by(DopplerFactor<Camera, Rest> doppler, Scratch& s) {
   s.shift = doppler.value;
-  s.shifted = false;
+  s.shifted = 0;
 }
 
 /// Those, for what is not looked up by D alone.
 const double* shifted_wavelengths(const WavelengthSet& set, Scratch& s);
 
 /// The film colour of an emission seen so.
-LinearRgb shifted_colour(const Spectrum& emission, const WavelengthSet& set, Scratch& s);
+LinearRgb shifted_colour(const SeenSpectrum& emission, Scratch& s);
 
-/// The film colour of a surface's own emission.
-LinearRgb emitted_colour(const Material& material, const WavelengthSet& set, Scratch& s);
+/// The film colour of a surface's own emission; `material`: its index.
+LinearRgb emitted_colour(const ShadingContext& context, int material, Scratch& s);
 
-/// The reflectance, into s.reflectance; or, where it is the same at every wavelength, its value.
-std::optional<double> fill_reflectance(const Material& material, double u, double v, const WavelengthSet& set,
-                                       Scratch& s);
+/// What a point reflects.
+struct Reflectance {
+  SeenSpectrum seen;
+  std::optional<double> grey;  ///< its value, where it is the same at every wavelength
+};
+
+/// That of a point; into s.reflectance too, unless it is grey or has features. Of a texture it stands in
+/// s.texel.
+Reflectance fill_reflectance(const ShadingContext& context, int material, double u, double v, Scratch& s);
 
 /// Film colours of a lamp of unit strength.
 struct LampColours {
@@ -44,9 +50,9 @@ struct LampColours {
   LinearRgb reflected{0.0};  ///< of what the reflectance leaves of it
 };
 
-/// `grey` and s.reflectance: as fill_reflectance left them.
-LampColours lamp_colours(const Light& light, DopplerFactor<Rest, Source> doppler, const Material& material,
-                         std::optional<double> grey, const WavelengthSet& set, Scratch& s);
+/// `reflectance` and s.reflectance: as fill_reflectance left them.
+LampColours lamp_colours(const SeenSpectrum& lamp, DopplerFactor<Rest, Source> doppler, bool has_lobe,
+                         const Reflectance& reflectance, Scratch& s);
 
 /// The film colour of one lamp's reflected light: Lambert's and Phong's.
 inline LinearRgb reflected_colour(const LampColours& lamp, DopplerFactor<Rest, Source> doppler,

@@ -516,7 +516,7 @@ bool SheetShader::shade(const Occupant& occupant, const Effects& effects) {
   if (index < 0) return false;
   const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
   if (tracer_.is_spectral() && effects.doppler) {
-    light_spectra(material, effects);
+    light_spectra(material, index, effects);
   } else {
     light_rgb(material, index, effects);
   }

@@ -118,7 +118,7 @@ class SheetShader {
   void ambient_arrives(std::size_t light);
   bool light_arrives(std::size_t light, const Effects& effects, const Material& material,
                      LaneReflection& reflection);
-  void light_spectra(const Material& material, const Effects& effects);
+  void light_spectra(const Material& material, int material_index, const Effects& effects);
   [[nodiscard]] std::size_t frame() const { return static_cast<std::size_t>(occupant_->frame); }
 
   const Tracer& tracer_;

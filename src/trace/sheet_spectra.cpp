@@ -12,8 +12,12 @@ namespace {
 // before.
 class ShiftedColours {
  public:
-  ShiftedColours(const Material& material, const WavelengthSet& set, SheetScratch& work, Scratch& scratch)
-      : material_(material), set_(set), lamps_(work.lamp_light), s_(scratch) {}
+  ShiftedColours(const ShadingContext& context, int material, SheetScratch& work, Scratch& scratch)
+      : context_(context),
+        index_(material),
+        material_(context.scene->materials[static_cast<std::size_t>(material)]),
+        lamps_(work.lamp_light),
+        s_(scratch) {}
 
   void begin(DopplerFactor<Camera, Rest> doppler, double u, double v) {
     const int slot = material_.checker ? checker_slot(*material_.checker, u, v) : 0;
@@ -26,28 +30,29 @@ class ShiftedColours {
     v_ = v;
     ready_ = false;
     for (SheetScratch::Lamp& lamp : lamps_) lamp.known = false;
-    if (!material_.emission) return;
-    emitted_ = emitted_colour(material_, set_, s_);
+    emitted_ = emitted_colour(context_, index_, s_);
   }
 
   [[nodiscard]] const LinearRgb& emitted() const { return emitted_; }
 
-  const LampColours& under(const Light& light, SheetScratch::Lamp& lamp,
-                           DopplerFactor<Rest, Source> doppler) {
+  const LampColours& under(std::size_t light, DopplerFactor<Rest, Source> doppler) {
+    SheetScratch::Lamp& lamp = lamps_[light];
     if (lamp.known && lamp.known_doppler == doppler.value) return lamp.colours;
     if (!ready_) {
-      grey_ = fill_reflectance(material_, u_, v_, set_, s_);
+      reflectance_ = fill_reflectance(context_, index_, u_, v_, s_);
       ready_ = true;
     }
-    lamp.colours = lamp_colours(light, doppler, material_, grey_, set_, s_);
+    lamp.colours =
+        lamp_colours(context_.spectra->light(light), doppler, material_.specular > 0.0, reflectance_, s_);
     lamp.known = true;
     lamp.known_doppler = doppler.value;
     return lamp.colours;
   }
 
  private:
+  const ShadingContext& context_;
+  int index_;
   const Material& material_;
-  const WavelengthSet& set_;
   std::vector<SheetScratch::Lamp>& lamps_;
   Scratch& s_;
   bool began_ = false;
@@ -57,12 +62,12 @@ class ShiftedColours {
   double v_ = 0.0;
   LinearRgb emitted_{0.0};
   bool ready_ = false;  // wavelengths and reflectance are those of the point
-  std::optional<double> grey_;
+  Reflectance reflectance_;
 };
 
 }  // namespace
 
-void SheetShader::light_spectra(const Material& material, const Effects& effects) {
+void SheetShader::light_spectra(const Material& material, int material_index, const Effects& effects) {
   PointSheet& p = work_.points;
   const std::vector<Light>& lights = tracer_.scene().lights;
   // First what of each lamp reaches the points, then, point by point, its colours.
@@ -78,7 +83,8 @@ void SheetShader::light_spectra(const Material& material, const Effects& effects
     std::copy_n(p.lamp_doppler, p.count, lamp.doppler);
   }
   const double gamma = tracer_.hub().frames[frame()].from_camera.gamma();
-  ShiftedColours colours(material, tracer_.wavelengths(), work_, scratch_);
+  const ShadingContext context = tracer_.shading();
+  ShiftedColours colours(context, material_index, work_, scratch_);
   for (int lane = 0; lane < p.count; ++lane) {
     const DopplerFactor<Camera, Rest> doppler{p.doppler[lane]};
     colours.begin(doppler, p.u[lane], p.v[lane]);
@@ -87,8 +93,8 @@ void SheetShader::light_spectra(const Material& material, const Effects& effects
       SheetScratch::Lamp& lamp = work_.lamp_light[i];
       if (!lamp.arrives || !(lamp.lit[lane] > 0.0)) continue;
       const DopplerFactor<Rest, Source> lamp_doppler{lamp.doppler[lane]};
-      sum += reflected_colour(colours.under(lights[i], lamp, lamp_doppler), lamp_doppler,
-                              lamp.irradiance[lane], lamp.specular[lane]);
+      sum += reflected_colour(colours.under(i, lamp_doppler), lamp_doppler, lamp.irradiance[lane],
+                              lamp.specular[lane]);
     }
     const double factor =
         radiance_factor(doppler, gamma, effects.towards_camera()) * wavelength_density_factor(doppler);

@@ -45,13 +45,9 @@ SeenStar seen(const Star& star, const Hub& hub, const Scene& scene, bool light_d
 LinearRgb light_of(const Star& star, double illuminance, DopplerFactor<Camera, Rest> doppler, double gamma,
                    const Effects& effects, const WavelengthSet& wavelengths) {
   const double flux = flux_factor(doppler, gamma, effects.towards_camera());
-  const Spectrum body = Spectrum::blackbody(star.temperature).scaled(illuminance);
   const DopplerFactor<Camera, Rest> shift = effects.doppler ? doppler : DopplerFactor<Camera, Rest>{};
-  std::vector<double> nm(wavelengths.nm().begin(), wavelengths.nm().end());
-  for (double& at : nm) at = wavelength_at_origin(shift, at);
-  std::vector<double> light(nm.size());
-  body.evaluate_light(nm.data(), wavelengths.size(), light.data());
-  return flux * wavelength_density_factor(shift) * wavelengths.film(light.data());
+  const Spectrum body = Spectrum::blackbody(star.temperature).scaled(illuminance);
+  return flux * wavelength_density_factor(shift) * wavelengths.lights().at(body, shift.value)->film();
 }
 
 }  // namespace
@@ -61,17 +57,19 @@ Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray) {
   return {sky.texture ? texture_at(sky, ray.direction) : sky.radiance.rgb};
 }
 
-LinearRgb sky_shifted(const Sky& sky, const RestRayEvents& ray, const WavelengthSet& set, Scratch& s) {
+LinearRgb sky_shifted(const ShadingContext& context, const RestRayEvents& ray, Scratch& s) {
+  const Sky& sky = context.scene->sky;
   if (!sky.emits) return LinearRgb{0.0};
-  if (!sky.texture) return shifted_colour(sky.radiance.spectrum, set, s);
-  const double* nm = shifted_wavelengths(set, s);
+  if (!sky.texture) return shifted_colour(context.spectra->sky(), s);
   // D65 times a reflectance of half the texel's largest component, as for any coloured light.
   const LinearRgb rgb = glm::max(texture_at(sky, ray.direction), 0.0);
   const double scale = 2.0 * std::max({rgb.r, rgb.g, rgb.b});
-  const SigmoidReflectance shape = upsample(scale > 0.0 ? rgb / scale : rgb);
-  Spectrum::d65().scaled(scale).evaluate(nm, set.size(), s.lamp.data(), *s.kernels);
-  Spectrum::sigmoid_reflectance(shape).evaluate(nm, set.size(), s.reflectance.data(), *s.kernels);
-  return set.film(s.lamp.data(), s.reflectance.data(), *s.kernels);
+  if (!(scale > 0.0)) return LinearRgb{0.0};
+  const auto [shape, set] = context.wavelengths->upsampled(rgb / scale, 0.0);
+  s.texel = Spectrum::sigmoid_reflectance(shape);
+  s.texel.evaluate(shifted_wavelengths(*set, s), set->size(), s.reflectance.data(), *s.kernels);
+  const WavelengthSet::Sampled sampled{s.reflectance.data(), &s.texel, s.shift};
+  return scale * set->film_under(Spectrum::d65(), s.shift, &sampled, s.lamp.data(), *s.kernels);
 }
 
 std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const WavelengthSet& wavelengths) {

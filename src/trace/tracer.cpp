@@ -39,15 +39,18 @@ bool any_without_shift(const Scene& scene) {
 Tracer::Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces)
     : scene_(&scene),
       hub_(make_hub(scene, pieces)),
-      wavelengths_(wavelength_set(wavelengths > 0 ? wavelengths : default_wavelength_count)),
+      wavelengths_(&wavelength_set(wavelengths > 0 ? wavelengths : default_wavelength_count)),
       spectral_(wavelengths > 0),
-      stars_(star_images(scene, hub_, wavelengths_)) {
-  if (!spectral_ || any_without_shift(scene) || records_light(scene))
-    rest_colours_ = RestColours(scene, wavelengths_);
+      stars_(star_images(scene, hub_, *wavelengths_)) {
+  const bool at_rest = !spectral_ || any_without_shift(scene) || records_light(scene);
+  if (spectral_ || (at_rest && RestColours::needs_spectra(scene))) {
+    spectra_ = SceneSpectra(scene, *wavelengths_);
+  }
+  if (at_rest) rest_colours_ = RestColours(scene, *wavelengths_, spectra_);
 }
 
 Scratch Tracer::make_scratch(InstructionSet set) const {
-  return {hub_, *scene_, spectral_ ? wavelengths_.nm().size() : 0, set};
+  return {hub_, *scene_, spectral_ ? static_cast<std::size_t>(wavelengths_->most()) : 0, set};
 }
 
 RayLight Tracer::light(const CameraRay& ray, const Effects& effects, Scratch& scratch) const {
@@ -70,7 +73,7 @@ LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Eff
   const DopplerFactor<Camera, Rest> doppler = events.doppler(ray.light_delay);
   const double gamma = hub_.frames[static_cast<std::size_t>(frame)].from_camera.gamma();
   const BrightnessSwitches& factors = effects.towards_camera();
-  const ShadingContext context{scene_, &hub_, &rest_colours_, &wavelengths_};
+  const ShadingContext context = shading();
 
   if (!spectral_ || !effects.doppler) {
     // Light into the surface from its retarded event, shadow ray, reflection in the rest frame: (10)-(12).
@@ -82,7 +85,7 @@ LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Eff
   shift_by(doppler, scratch);
   const LinearRgb radiance =
       hit.found() ? shade_shifted(context, seen_point(hub_, scratch.rays, hit), effects, scratch)
-                  : sky_shifted(scene_->sky, events, wavelengths_, scratch);
+                  : sky_shifted(context, events, scratch);
   return radiance_factor(doppler, gamma, factors) * wavelength_density_factor(doppler) * radiance;
 }
 

@@ -77,7 +77,7 @@ TEST_F(LeastModel, NoSpectraWhereNoColourShifts) {
   const auto moving = statistics(film + sphere + "beta = [0.5, 0, 0]\n" + lamp);
   EXPECT_EQ(moving["model"], "spectral");
   EXPECT_EQ(moving["modelWhy"], "object 1 moves relative to the camera");
-  EXPECT_EQ(moving["wavelengthsWhy"], "the default, enough for any colours");
+  EXPECT_EQ(moving["wavelengthsWhy"], "the default");
 }
 
 TEST_F(LeastModel, NoRootIsSearchedWhereClosedFormsDo) {

@@ -192,6 +192,16 @@ void add_materials(std::vector<Case>& all) {
                  {},
                  "[0.25, 0.75, 0.5]",
                  "[0.5, 0.25, 0.5]"});
+  all.push_back({"lines.wavelengths",
+                 material("emission = 1\nlines = { wavelengths = @, values = [1, 2] }"),
+                 {},
+                 "[500, 600]",
+                 "[450, 600]"});
+  all.push_back({"lines.values",
+                 material("emission = 1\nlines = { wavelengths = [500, 600], values = @ }"),
+                 {},
+                 "[1, 2]",
+                 "[2, 1]"});
 }
 
 void add_objects(std::vector<Case>& all) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct SpectrumOrError;
 /// spectral radiance, intensity or irradiance, relative to D65's: `d65()` has film Y = 1 (see
 /// `WavelengthSet`). Never negative, and finite for every wavelength > 0, since Doppler shifts ask for gamma
 /// rays and radio waves. A value type: copies are cheap, and evaluation neither allocates nor locks.
+///
+/// A lamp's may have lines besides: light of single wavelengths, which is no function of the wavelength.
 class Spectrum {
  public:
   /// Zero everywhere.
@@ -64,14 +67,22 @@ class Spectrum {
   /// equation (9a)). At D times the wavelengths, times D^5, that is the luminance at D times the temperature.
   static Spectrum absolute_blackbody(double kelvin);
 
+  /// nm^-5 / (exp(c2 / (nm kelvin)) - 1), divided by e^log_divisor.
+  static Spectrum planckian(double kelvin, double log_divisor);
+
   /// Straight lines between the points given; the end values are kept outside. Fails unless there are as many
   /// wavelengths (nm, > 0, ascending) as values (>= 0), at least one, all finite.
   static SpectrumOrError tabulated(std::vector<double> wavelengths, std::vector<double> values);
 
+  /// The same with lines: line i is at lines.wavelengths[i] (nm, > 0, in any order) and has as much power as
+  /// a value lines.values[i] (>= 0) over one nanometre. Either table may be empty, but not both.
+  static SpectrumOrError tabulated(std::vector<double> wavelengths, std::vector<double> values,
+                                   std::vector<double> line_wavelengths, std::vector<double> line_values);
+
   /// This spectrum times `factor` >= 0. A blackbody's strength is kept as a logarithm.
   [[nodiscard]] Spectrum scaled(double factor) const;
 
-  /// The value at `nm` > 0.
+  /// The value at `nm` > 0; of lines nothing.
   [[nodiscard]] double at(double nm) const;
 
   /// out[i] = at(nm[i]) for i < n, to the same bits, whichever kernels do it.
@@ -96,15 +107,48 @@ class Spectrum {
   /// colour.
   [[nodiscard]] bool is_d65_shaped() const;
 
-  /// What it is times `d65()`, if that is what it is made as.
-  [[nodiscard]] std::optional<double> share_of_d65() const;
+  /// The shape of a reflectance made from RGB, or of an illuminant; empty for others.
+  [[nodiscard]] std::optional<SigmoidReflectance> shape() const;
+
+  /// The same, which must have a shape, with another.
+  [[nodiscard]] Spectrum with_shape(const SigmoidReflectance& shape) const;
+
+  /// It has points or lines of its own, so that no fixed wavelengths can stand for it:
+  /// `integrate_film` (colour/film_integral.h) is to be asked.
+  [[nodiscard]] bool has_features() const { return form_.kind == Kind::tabulated; }
+
+  /// Where it is not smooth, in nm and ascending: the points of a table, the joints of D65.
+  [[nodiscard]] std::span<const double> knots() const;
+
+  /// Wavelengths, in nm.
+  struct Span {
+    double begin;
+    double end;
+  };
+  /// Where it may differ from zero: all wavelengths, unless it is a table.
+  [[nodiscard]] std::span<const Span> bright() const;
+
+  /// The power of each line, and where it is, in nm.
+  struct Line {
+    double nm;
+    double power;
+  };
+  [[nodiscard]] std::span<const Line> lines() const;
+  /// What `Line::power` is to be multiplied with.
+  [[nodiscard]] double scale() const { return form_.scale; }
+
+  /// Its numbers.
+  [[nodiscard]] const SpectrumForm& form() const { return form_; }
 
  private:
   using Kind = SpectrumForm::Kind;
   struct Table {
-    std::vector<double> nm;
+    std::vector<double> nm;  // may be empty: then there are lines
     std::vector<double> values;
+    std::vector<Line> lines;
+    std::vector<Span> bright;
   };
+  static std::vector<Span> bright_parts(const std::vector<double>& nm, const std::vector<double>& values);
 
   void set_shape(const SigmoidReflectance& shape);
 
@@ -117,14 +161,14 @@ struct SpectrumOrError {
   std::string error;
 };
 
-/// The film colour of an emission at rest, by the CIE's sum over 1 nm: what every `WavelengthSet`
-/// approximates.
+/// The film colour of an emission at rest, by the CIE's sum over 1 nm, which every `WavelengthSet`
+/// approximates; of tables and lines the integral (docs/colour.md, equation (c2)).
 LinearRgb film_colour(const Spectrum& emission);
 
-/// The film colour of a white-lit reflectance: of `reflectance` times D65, by the same sum.
+/// The film colour of a white-lit reflectance: of `reflectance` times D65, in the same way.
 LinearRgb colour_under_d65(const Spectrum& reflectance);
 
-/// The film colour of `reflectance` times `light`, by the same sum.
+/// The film colour of `reflectance` times `light`, in the same way.
 LinearRgb colour_under(const Spectrum& light, const Spectrum& reflectance);
 
 }  // namespace backlight

@@ -33,7 +33,7 @@ struct Needs {
   /// Whether colours shift anywhere in the image, so that spectra are carried instead of red, green and blue.
   bool spectral = false;
   std::string why;  ///< a clause: "'tram' moves relative to the camera", "nothing moves relative to anything"
-  int wavelengths = 0;      ///< of the spectral quadrature; 0 when not spectral
+  int wavelengths = 0;      ///< at which reflectances are sampled; 0 when not spectral
   std::string why_so_many;  ///< a clause about their number; empty when not spectral
 };
 

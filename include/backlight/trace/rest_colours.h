@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "backlight/colour/observer.h"
+#include "backlight/colour/film_integral.h"
 #include "backlight/scene/scene.h"
+#include "backlight/trace/scene_spectra.h"
 
 namespace backlight {
 
@@ -15,7 +16,11 @@ namespace backlight {
 class RestColours {
  public:
   RestColours() = default;
-  RestColours(const Scene& scene, const WavelengthSet& wavelengths);
+  /// `spectra` may be empty where there is no need for them.
+  RestColours(const Scene& scene, const WavelengthSet& wavelengths, const SceneSpectra& spectra);
+
+  /// Whether any light is not white.
+  static bool needs_spectra(const Scene& scene);
 
   /// Under light `light` of unit strength, of the constant reflectance in `slot` (0, or 0 and 1 of a checker)
   /// of a material.
@@ -28,16 +33,17 @@ class RestColours {
   [[nodiscard]] LinearRgb under(std::size_t light, const LinearRgb& texel) const;
 
  private:
-  /// A lamp as what each wavelength of it adds to the film; no wavelengths for a white lamp.
+  /// A lamp, with the rules by which texels are seen under it; empty ones for a white lamp.
   struct Lamp {
     LinearRgb rgb{0.0};
-    std::vector<LinearRgb> film;
+    FilmQuadrature gentle, steep;
   };
 
   std::size_t materials_ = 0;
   std::vector<LinearRgb> table_;
-  std::vector<double> wavelengths_;
   std::vector<Lamp> lamps_;
+  const WavelengthSet* wavelengths_ = nullptr;
+  double steepest_light_ = 0.0;
 };
 
 }  // namespace backlight

@@ -37,13 +37,13 @@ struct Scratch {
   RayInFrames rays;
   RayCounts counts;
   std::vector<std::vector<double>> light_variables;  ///< for strengths that change with time
-  const SpectralKernels* kernels;   ///< for these, of one value a wavelength of the camera's set:
+  const SpectralKernels* kernels;   ///< for these, of one value a wavelength of a set of the camera's:
   double shift = 1.0;               ///< D from the surface (or sky) to the camera
-  bool shifted = false;             ///< whether `wavelengths` are
+  int shifted = 0;                  ///< of the set of how many wavelengths `wavelengths` are; 0: of none
   std::vector<double> wavelengths;  ///< in the surface's (or sky's) frame
-  std::vector<double> at_light;     ///< the same in the lamp's frame
   std::vector<double> reflectance;
-  std::vector<double> lamp;  ///< or own radiance
+  std::vector<double> lamp;  ///< room for what a lamp takes
+  Spectrum texel;            ///< the reflectance of a point of a texture
 };
 
 /// What the shading of one image reads.
@@ -52,6 +52,7 @@ struct ShadingContext {
   const Hub* hub = nullptr;
   const RestColours* rest_colours = nullptr;
   const WavelengthSet* wavelengths = nullptr;
+  const SceneSpectra* spectra = nullptr;
 };
 
 /// Radiance towards the camera in the surface's frame, as a film colour: no colours are shifted, but the

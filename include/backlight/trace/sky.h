@@ -12,7 +12,7 @@ namespace backlight {
 Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray);
 
 /// The film colour with scratch.shift on the way.
-LinearRgb sky_shifted(const Sky& sky, const RestRayEvents& ray, const WavelengthSet& set, Scratch& scratch);
+LinearRgb sky_shifted(const ShadingContext& context, const RestRayEvents& ray, Scratch& scratch);
 
 /// A star as the camera has it.
 struct StarImage {

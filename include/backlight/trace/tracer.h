@@ -69,7 +69,9 @@ class Tracer {
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Hub& hub() const { return hub_; }
   [[nodiscard]] const RestColours& rest_colours() const { return rest_colours_; }
-  [[nodiscard]] const WavelengthSet& wavelengths() const { return wavelengths_; }
+  [[nodiscard]] ShadingContext shading() const {
+    return {scene_, &hub_, &rest_colours_, wavelengths_, &spectra_};
+  }
   [[nodiscard]] bool is_spectral() const { return spectral_; }
   [[nodiscard]] bool has_stars() const { return !stars_.empty(); }
 
@@ -77,7 +79,8 @@ class Tracer {
   const Scene* scene_;
   Hub hub_;
   RestColours rest_colours_;
-  WavelengthSet wavelengths_;
+  const WavelengthSet* wavelengths_;
+  SceneSpectra spectra_;  // where colours are shifted
   bool spectral_;
   std::vector<StarImage> stars_;
 };

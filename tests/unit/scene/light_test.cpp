@@ -138,6 +138,38 @@ TEST(SceneLights, ColoursAreOfUnitStrength) {
   EXPECT_NEAR(luminance(film_colour(line.colour.spectrum)), 1.0, 1e-12);
 }
 
+// The observer's value at 589 and at 121.6 nm: only the first is seen at rest, and measures the strength.
+TEST(SceneLights, LinesAreOfUnitStrengthTogether) {
+  const Light lamp = light_of("intensity = 7\nlines = { wavelengths = [589.0, 121.6], values = [2, 5] }\n");
+  EXPECT_EQ(lamp.strength, 7.0);
+  EXPECT_NEAR(luminance(lamp.colour.rgb), 1.0, 1e-12);
+  const Spectrum& spectrum = lamp.colour.spectrum;
+  ASSERT_EQ(spectrum.lines().size(), 2U);
+  EXPECT_EQ(spectrum.lines()[1].nm, 121.6);
+  EXPECT_EQ(spectrum.lines()[1].power / spectrum.lines()[0].power, 2.5);
+  EXPECT_EQ(spectrum.at(589.0), 0.0);
+  // Beside a spectrum: a line of value 30 is as much as 30 nm of value 1.
+  const Light both = light_of(
+      "spectrum = { wavelengths = [400, 700], values = [1, 1] }\n"
+      "lines = { wavelengths = [589], values = [30] }\n");
+  EXPECT_NEAR(luminance(both.colour.rgb), 1.0, 1e-12);
+  const double scale = both.colour.spectrum.scale();
+  EXPECT_NEAR(both.colour.spectrum.at(500.0), scale, 1e-15);
+  EXPECT_EQ(both.colour.spectrum.lines()[0].power, 30.0);
+}
+
+TEST(SceneMaterials, EmissionHasASpectrumAndLines) {
+  const Material gas = material_of("emission = 3, lines = { wavelengths = [486.1, 656.3], values = [1, 4] }");
+  ASSERT_NE(gas.emission, nullptr);
+  EXPECT_NEAR(luminance(gas.emission->rgb), 3.0, 1e-12);
+  EXPECT_EQ(gas.emission->spectrum.lines().size(), 2U);
+  const Material led = material_of(
+      "emission = 2, emission_spectrum = { wavelengths = [500, 500.2, 500.4], values = [0, 9, 0] }");
+  ASSERT_NE(led.emission, nullptr);
+  EXPECT_NEAR(luminance(led.emission->rgb), 2.0, 1e-12);
+  EXPECT_NEAR(luminance(film_colour(led.emission->spectrum)), 2.0, 1e-12);
+}
+
 TEST(SceneLights, FlickerInTheirOwnTime) {
   const std::string text = "[params]\nrate = 3\n[animation]\nfps = 1\nframes = [5, 5]\n" + camera +
                            "[[light]]\nintensity = \"rate * t + frame\"\nvelocity = [0.5, 0, 0]\n"

@@ -134,8 +134,8 @@ TEST(SceneExplain, SaysWhatThereIs) {
       "angle)\n"
       "  model      spectral: object 'tram' moves relative to the camera; " +
           std::to_string(needs(text).wavelengths) +
-          " wavelengths, the default, enough for any colours; shadow rays; no textures, OpenImageIO is not "
-          "loaded\n"
+          " wavelengths for reflectances, the default; lights, tables and lines are summed whole; shadow "
+          "rays; no textures, OpenImageIO is not loaded\n"
           "  arithmetic double precision; a ray is boosted into 1 frame\n");
 }
 
