@@ -55,9 +55,9 @@ struct Seen {
 constexpr double centre_nm = 595.0;
 constexpr double half_width_nm = 235.0;
 
-// A set takes reflectances that change by no more than this from one of its wavelengths to the next:
-// docs/colour.md has the measurements.
-constexpr double steepest_step = 0.11;
+// Reflectances that change by no more per nm are followed well enough by the default number of wavelengths,
+// and by fewer as well as their number says: docs/colour.md has the measurements.
+constexpr double steepest_gentle = 0.013;
 // Where they change by more.
 constexpr int fine_count = 236;
 
@@ -93,7 +93,6 @@ WavelengthSet::WavelengthSet(int count) {
     green_[i] /= white.y;
     blue_[i] /= white.z;
   }
-  step_ = (visible_end_nm - visible_begin_nm) / (count - 1);
   lights_ = std::make_shared<const LightRows>(nm_);
 }
 
@@ -131,7 +130,7 @@ LinearRgb WavelengthSet::film_under(const Spectrum& light, double shift, const S
 }
 
 const WavelengthSet& WavelengthSet::for_steepness(double steepness) const {
-  return steepness * step_ > steepest_step ? fine() : *this;
+  return steepness > steepest_gentle ? fine() : *this;
 }
 
 const WavelengthSet& WavelengthSet::fine() const {

@@ -93,7 +93,6 @@ class WavelengthSet {
   std::vector<double> green_;
   std::vector<double> blue_;
   std::shared_ptr<const LightRows> lights_;
-  double step_ = 0.0;           // mean
   std::vector<double> places_;  // of nm_ in 595 ± 235 nm
 };
 
