@@ -56,9 +56,10 @@ TEST(Shape, BadSizesAreNamed) {
   EXPECT_EQ(problem(quadric({1, 0, nan, 0, 0, 0, 0, 0, 0, 5})), "coefficients must be finite");
 }
 
-TEST(Shape, OnlyPlanesAndQuadricsAreInfinite) {
+TEST(Shape, OnlyPlanesAndOpenQuadricsAreInfinite) {
   EXPECT_TRUE(is_infinite(plane()));
-  EXPECT_TRUE(is_infinite(quadric({1, 1, 1, 0, 0, 0, 0, 0, 0, -1})));
+  EXPECT_TRUE(is_infinite(quadric({1, 1, -1, 0, 0, 0, 0, 0, 0, -1})));
+  EXPECT_FALSE(is_infinite(quadric({1, 1, 1, 0, 0, 0, 0, 0, 0, -1})));
   EXPECT_FALSE(is_infinite(torus(2, 1)));
 }
 
