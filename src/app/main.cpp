@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "backlight/film/exr.h"
 #include "commands.h"
 #include "exit_codes.h"
 #include "options.h"
@@ -33,6 +34,7 @@ int flushed(int code) {
 }
 
 int run_program(const std::vector<std::string>& arguments) {
+  begin_exr();
   const Command command = parse_command_line(arguments);
   if (std::holds_alternative<RenderOptions>(command)) catch_stop_signals();
   release_held_signals();

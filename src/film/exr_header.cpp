@@ -3,6 +3,7 @@
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
+#include <ImfHeader.h>
 #include <ImfIntAttribute.h>
 #include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
@@ -105,6 +106,10 @@ bool has_own_place(const std::string& name) {
 }
 
 }  // namespace
+
+void begin_exr() {
+  Imf::staticInitialize();
+}
 
 std::string text_of(const ExrValue& value) {
   std::ostringstream text;

@@ -29,8 +29,9 @@ bool walk_header(Imf::IStream& stream, std::uint64_t file_size) {
     Imf::Xdr::read<Imf::StreamIO>(stream, size);
     const std::uint64_t place = stream.tellg();
     if (size < 0 || place > file_size || static_cast<std::uint64_t>(size) > file_size - place) {
-      throw std::runtime_error("its header is damaged: the attribute '" + name + "' of type '" + type +
-                               "' says that it has " + std::to_string(size) + " bytes");
+      throw std::runtime_error("the file ends too early, or its header is damaged: the attribute '" + name +
+                               "' of type '" + type + "' says that it has " + std::to_string(size) +
+                               " bytes");
     }
     stream.seekg(place + static_cast<std::uint64_t>(size));
   }

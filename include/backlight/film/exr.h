@@ -111,6 +111,10 @@ class ExrWriter {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// Makes what OpenEXR makes when it is first used, and cannot make again in the same process where memory
+/// runs out half-way. A program that goes on after std::bad_alloc, which this throws, calls it first of all.
+void begin_exr();
+
 /// Writes a whole picture. On failure (the disk is full, the folder cannot be written...) nothing is left
 /// behind, and a file that was at `path` is as it was. Large pictures are compressed by up to `threads`,
 /// which may write other pictures at the same time.
