@@ -31,10 +31,11 @@ class Misfortune : public Again {
   }
 
   void make_partial() {
-    for (int i = 0; i < 50 && !exists("before/a.0001.partial.exr"); ++i) {
+    // Tracing begins some milliseconds after the signal is caught, and is over soon.
+    for (int i = 0; i < 400 && !exists("before/a.0001.partial.exr"); ++i) {
       const int process = start(job + Arguments{"-f", "1", "-o", "before/a.exr"}, "stopped");
       wait_until_caught(process, SIGTERM);
-      std::this_thread::sleep_for(std::chrono::milliseconds(i));
+      std::this_thread::sleep_for(std::chrono::microseconds(100 * i));
       kill(process, SIGTERM);
       finish(process, "stopped");
       fs::remove(folder / "work/before/a.0001.exr");
