@@ -14,18 +14,16 @@
 namespace backlight {
 namespace {
 
-// The first ten bits of a number's fraction, and its exponent, say which row is at or below it.
-constexpr int bits_below_row = 42;
-
-constexpr std::uint64_t row_bits(double x) {
-  return std::bit_cast<std::uint64_t>(x) >> bits_below_row;
-}
-
-// Numbers from `least` (of a row) up to `end`.
+// Numbers from `least` (of a row) up to `end`. The first bits of a number's fraction, and its exponent, say
+// which row is at or below it.
 struct Range {
   double least;
   double end;
+  int bits_below_row;
 
+  [[nodiscard]] constexpr std::uint64_t row_bits(double x) const {
+    return std::bit_cast<std::uint64_t>(x) >> bits_below_row;
+  }
   [[nodiscard]] constexpr bool has(double x) const { return x >= least && x < end; }
   [[nodiscard]] constexpr std::size_t rows() const { return row_bits(end) - row_bits(least) + 1; }
   [[nodiscard]] constexpr std::size_t index(double x) const { return row_bits(x) - row_bits(least); }
@@ -35,11 +33,11 @@ struct Range {
 };
 
 // Shifts at which any of D65's table is in the visible range; beyond both ends it is a blackbody there.
-constexpr Range shifts{111.0 / 256.0, 591.0 / 256.0};
+constexpr Range shifts{111.0 / 256.0, 592.0 / 256.0, 42};
 static_assert(shifts.least * cie::last_nm <= cie::first_nm && shifts.end * cie::first_nm >= cie::last_nm);
 
 // Temperatures times shifts, in K. Beyond, a row is made for each place.
-constexpr Range temperatures{64.0, 4194304.0};
+constexpr Range temperatures{64.0, 4194304.0, 44};
 
 // Greater powers of e would leave no room for what a strength, a distance and D make of them.
 constexpr double greatest_log = 600.0;
@@ -114,9 +112,12 @@ LinearRgb LightRows::Place::film() const {
 
 LinearRgb LightRows::Place::film(const double* reflectance, const double* second,
                                  const SpectralKernels& kernels) const {
-  const LinearRgb before = weighted(*low, reflectance, second, kernels);
-  if (fraction == 0.0) return scale * before;
-  return scale * (before + fraction * (weighted(*high, reflectance, second, kernels) - before));
+  if (fraction == 0.0) return scale * weighted(*low, reflectance, second, kernels);
+  LinearRgb sum{0.0};
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    sum += share[i] * weighted(*around[i], reflectance, second, kernels);
+  }
+  return scale * sum;
 }
 
 LinearRgb LightRows::Place::left_out(double nm) const {
@@ -167,28 +168,46 @@ const LightRows::Row& LightRows::row(Rows& rows, std::size_t index, const Make& 
   return *first;
 }
 
+// `scale` is 1.
+template <class Range, class Make>
+LightRows::Place LightRows::between(Rows& rows, const Range& range, double x, const Make& make) const {
+  const std::size_t index = range.index(x);
+  const double low = range.at(index);
+  Place place{};
+  place.step = range.at(index + 1) - low;
+  place.fraction = (x - low) / place.step;
+  place.scale = 1.0;
+  const std::size_t first = std::min(index == 0 ? 0 : index - 1, range.rows() - place.around.size());
+  double at[4];
+  for (std::size_t i = 0; i < 4; ++i) {
+    at[i] = range.at(first + i);
+    place.around[i] = &row(rows, first + i, [&] { return make(at[i]); });
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    double above = 1.0, below = 1.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (k == i) continue;
+      above *= x - at[k];
+      below *= at[i] - at[k];
+    }
+    place.share[i] = above / below;
+  }
+  place.low = place.around[index - first];
+  place.high = place.around[index - first + 1];
+  return place;
+}
+
 LightRows::Place LightRows::daylight(double shift, double scale) const {
-  const std::size_t index = shifts.index(shift);
-  const double low = shifts.at(index), step = shifts.at(index + 1) - low;
-  const auto made = [&](std::size_t i) -> const Row& {
-    return row(daylight_, i, [&] { return make_daylight(shifts.at(i)); });
-  };
-  return {&made(index), &made(index + 1), (shift - low) / step, step, scale};
+  Place place = between(daylight_, shifts, shift, [this](double s) { return make_daylight(s); });
+  place.scale = scale;
+  return place;
 }
 
 LightRows::Place LightRows::body(double kelvin, double log_divisor, double scale) const {
   static thread_local Row own;
-  Place place{&own, &own, 0.0, 0.0, 0.0};
+  Place place{&own, &own, 0.0, 0.0, 1.0, {}, {}};
   if (temperatures.has(kelvin)) {
-    const std::size_t index = temperatures.index(kelvin);
-    const double low = temperatures.at(index);
-    place.step = temperatures.at(index + 1) - low;
-    place.fraction = (kelvin - low) / place.step;
-    const auto made = [&](std::size_t i) -> const Row& {
-      return row(bodies_, i, [&] { return make_body(temperatures.at(i)); });
-    };
-    place.low = &made(index);
-    place.high = &made(index + 1);
+    place = between(bodies_, temperatures, kelvin, [this](double t) { return make_body(t); });
   } else {
     own = make_body(kelvin);
   }

@@ -19,10 +19,10 @@ class SplineWeights;
 /// equation (c1). The light itself is summed over the observer's 471 samples, so it may be as uneven or as
 /// steep as it likes; the reflectance alone is interpolated.
 ///
-/// There are rows of D65 by its shift s, and rows of blackbodies by temperature times shift, all of which are
-/// one family: of each doubling 1024. In between, the film colour of the whole light follows the cubic that
-/// has the rows' values and slopes, weights go along straight lines. A row is made when it is first asked
-/// for, from any thread, and depends on nothing but its number.
+/// There are rows of D65 by its shift s, of each doubling 1024, and rows of blackbodies by temperature times
+/// shift, all of which are one family, of each doubling 256. In between, the film colour of the whole light
+/// follows the cubic that has the rows' values and slopes, weights the cubic through the four rows around. A
+/// row is made when it is first asked for, from any thread, and depends on nothing but its number.
 class LightRows {
  public:
   /// What one row has, of light divided by e^log_scale.
@@ -40,9 +40,11 @@ class LightRows {
   struct Place {
     const Row* low;
     const Row* high;
-    double fraction;  ///< of the way from one to the other, in [0, 1)
-    double step;      ///< of shift or temperature between them
-    double scale;     ///< on what they have
+    double fraction;                   ///< of the way from one to the other, in [0, 1)
+    double step;                       ///< of shift or temperature between them
+    double scale;                      ///< on what they have
+    std::array<const Row*, 4> around;  ///< with those two in it
+    std::array<double, 4> share;       ///< of each in the cubic through all four
 
     /// Colour of the whole light.
     [[nodiscard]] LinearRgb film() const;
@@ -67,6 +69,8 @@ class LightRows {
 
   [[nodiscard]] Place daylight(double shift, double scale) const;
   [[nodiscard]] Place body(double kelvin, double log_divisor, double scale) const;
+  template <class Range, class Make>
+  [[nodiscard]] Place between(Rows& rows, const Range& range, double x, const Make& make) const;
   template <class Make>
   [[nodiscard]] const Row& row(Rows& rows, std::size_t index, const Make& make) const;
   [[nodiscard]] Row make_daylight(double shift) const;
