@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the fuzzers of expressions, of their evaluators and of solids with clang and the sanitizers, and runs one after the other.
 #
-#   scripts/fuzz.sh [SECONDS]        (of each; default: 20)
+#   scripts/fuzz.sh [SECONDS] [SEED]        (of each; default: 20, and another seed each time)
 #
 # Starts from tests/fuzz/corpus. An input that fails is left in build/fuzz/found; put it into the corpus, from where
 # ctest runs it with every compiler. Exits 1 when one was found.
@@ -9,7 +9,10 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 seconds=${1:-20}
-[[ $seconds =~ ^[0-9]+$ ]] || { echo "scripts/fuzz.sh: '$seconds' is not a number of seconds" >&2; exit 2; }
+seed=${2:-0}
+for number in "$seconds" "$seed"; do
+  [[ $number =~ ^[0-9]+$ ]] || { echo "scripts/fuzz.sh: '$number' is not a whole number" >&2; exit 2; }
+done
 scripts/install.sh build test ci
 cmake --preset clang -B build/fuzz -DBACKLIGHT_FUZZ=ON -DBACKLIGHT_SANITIZE=address >/dev/null
 cmake --build build/fuzz --target expression_fuzz evaluator_fuzz solid_fuzz
@@ -17,6 +20,6 @@ mkdir -p build/fuzz/found
 for fuzzer in expression evaluator solid; do
   mkdir -p build/fuzz/inputs/$fuzzer
   program=$(find build/fuzz -name ${fuzzer}_fuzz -type f -perm -u+x -print -quit)
-  "$program" -max_total_time="$seconds" -max_len=200 -artifact_prefix=build/fuzz/found/ -print_final_stats=1 \
+  "$program" -max_total_time="$seconds" -seed="$seed" -max_len=200 -artifact_prefix=build/fuzz/found/ -print_final_stats=1 \
     build/fuzz/inputs/$fuzzer tests/fuzz/corpus/$fuzzer || exit 1
 done
