@@ -46,10 +46,11 @@ def case(rng, to_size, from_size, kind):
     w = [-lorentz[0, i] for i in (1, 2, 3)]
     rotation = lorentz * boost([-p for p in w])
     seen = lorentz * matrix([mpf(-1)] + [mpf(p) for p in looking])
-    numbers = ["%r" % p for p in to + start + looking]
-    numbers += ["%r" % float(p) for p in w]
-    numbers += ["%r" % float(rotation[i, j]) for i in (1, 2, 3) for j in (1, 2, 3)]
-    print("{" + ", ".join(numbers + [two(seen[i]) for i in range(4)]) + "},  // gamma", mp.nstr(lorentz[0, 0], 3))
+    turned = [rotation[i, j] for i in (1, 2, 3) for j in (1, 2, 3)]
+    groups = [["%r" % float(p) for p in group] for group in (to, start, looking, w, turned)]
+    groups.append([two(seen[i]) for i in range(4)])
+    braced = ["{" + ", ".join(group) + "}" for group in groups]
+    print("{" + ", ".join(braced) + "},  // gamma", mp.nstr(lorentz[0, 0], 3))
 
 
 def main():
