@@ -92,6 +92,8 @@ class Outliner {
 
   // Its parts in up to nine pixels.
   void add(const Box& box, const ImagePoint& centre) {
+    // Nowhere on the film: perhaps so far off that no whole number says where.
+    if (!(box.x0 < scene_.film.width && box.y0 < scene_.film.height)) return;
     for (int y = static_cast<int>(box.y0); y < std::min(box.y1, double(scene_.film.height)); ++y) {
       for (int x = static_cast<int>(box.x0); x < std::min(box.x1, double(scene_.film.width)); ++x) {
         found_.push_back({x, y, std::max(0.0, box.x0 - x), std::max(0.0, box.y0 - y),

@@ -82,7 +82,7 @@ TEST_F(View, ShowsNothingBrighterThanItIsOnTheFilm) {
   for (std::size_t i = 0; i < 20; ++i) night[i] = 0.01F;
   night[20] = 0.2F;
   for (const float lamp : {1.5F, 30.0F, 3e5F}) {
-    for (const std::size_t lamps : {1, 30}) {
+    for (const int lamps : {1, 30}) {
       std::fill_n(night.begin() + 21, lamps, lamp);
       picture("night.exr", night);
       expect_success({"view", "night.exr", "-o", "night.png"});

@@ -84,13 +84,17 @@ TEST(LightRows, Daylight) {
   EXPECT_LT(largest(looked_up(Spectrum::d65(), 1.0) - LinearRgb{1.0}), 1e-13);
 }
 
-// Every channel that is not a hundredth of the largest or less.
+// Every channel that is above a tenth of the largest; smaller ones are what is left of larger ones.
 TEST(LightRows, ReflectancesUnderAnyLight) {
   std::mt19937 engine(3);
   const auto unit = [&engine] { return std::uniform_real_distribution<double>(0.0, 1.0)(engine); };
   std::vector<LinearRgb> colours;
   for (int i = 1; i < 7; ++i) colours.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
-  for (int i = 0; i < 16; ++i) colours.emplace_back(unit(), unit(), unit());
+  for (int i = 0; i < 16; ++i) {
+    const double first = unit(), second = unit(), third = unit();
+    colours.emplace_back(first, second, third);
+    colours.emplace_back(third, second, first);
+  }
   std::vector<Spectrum> lights{Spectrum::d65(), Spectrum::illuminant({1.0, 0.3, 0.1})};
   for (const double kelvin : {1000.0, 3000.0, 30000.0}) lights.push_back(Spectrum::blackbody(kelvin));
   double worst = 0.0, worst_own = 0.0;
@@ -104,15 +108,14 @@ TEST(LightRows, ReflectancesUnderAnyLight) {
           const double size = largest(exact);
           worst = std::max(worst, largest(off) / size);
           for (int c = 0; c < 3; ++c) {
-            if (std::abs(exact[c]) > 0.01 * size)
-              worst_own = std::max(worst_own, std::abs(off[c] / exact[c]));
+            if (std::abs(exact[c]) > 0.1 * size) worst_own = std::max(worst_own, std::abs(off[c] / exact[c]));
           }
         }
       }
     }
   }
   EXPECT_LT(worst, 5e-4);
-  EXPECT_LT(worst_own, 2e-3);
+  EXPECT_LT(worst_own, 1e-3);
 }
 
 TEST(LightRows, ColouredLight) {
