@@ -197,16 +197,7 @@ struct SpectralKernelsOf {
     }
   }
 
-  static void mix(const double* a, const double* b, double fraction, int n, double* out) {
-    int i = 0;
-    for (; i + N <= n; i += N) {
-      const V low = V::load(a + i);
-      (low + V(fraction) * (V::load(b + i) - low)).store(out + i);
-    }
-    for (; i < n; ++i) out[i] = a[i] + fraction * (b[i] - a[i]);
-  }
-
-  static constexpr SpectralKernels table(const char* name) { return {name, N, evaluate, film, mix}; }
+  static constexpr SpectralKernels table(const char* name) { return {name, N, evaluate, film}; }
 };
 
 }  // namespace backlight

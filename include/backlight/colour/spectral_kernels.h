@@ -32,8 +32,6 @@ struct SpectralKernels {
   /// at the end, whatever the number of lanes.
   void (*film)(const double* const (&weights)[3], const double* a, const double* b, int n,
                double (&colour)[3]);
-  /// out[i] = a[i] + fraction (b[i] - a[i]) for i < n.
-  void (*mix)(const double* a, const double* b, double fraction, int n, double* out);
 };
 
 /// The kernels, if this machine runs them; `baseline` always does.
