@@ -10,7 +10,6 @@
 #include "exit_codes.h"
 #include "messages.h"
 #include "scene_session.h"
-#include "strategy_words.h"
 
 namespace backlight {
 namespace {
@@ -34,18 +33,14 @@ std::string memory_line(const Scene& scene, const RenderSettings& settings) {
   return text + '\n';
 }
 
-// Of the whole scene, from its outline.
-TraceStrategy strategy_of_all(const Scene& outline) {
-  TraceStrategy strategy = trace_strategy(outline);
-  std::size_t left_out = 0;
-  for (const SceneFrame& frame : outline.frames)
-    left_out += frame.surface_count() - frame.object_of_surface.size();
-  const auto add = [left_out](CullingChoice& choice) {
-    if (choice.surfaces > 0) choice.surfaces += left_out;
+// What an image takes over from the one before, unchanged.
+std::string reuse_line(const CompileCounts& counts) {
+  const auto share = [](std::size_t reused, std::size_t made, const char* what) {
+    return std::to_string(reused) + " of " + std::to_string(reused + made) + ' ' + what;
   };
-  add(strategy.camera);
-  for (CullingChoice& choice : strategy.shadows) add(choice);
-  return strategy;
+  return "  reuse      from image to image " +
+         share(counts.surfaces_reused, counts.surfaces_made, "surfaces") + ", " +
+         share(counts.materials_reused, counts.materials_made, "materials") + '\n';
 }
 
 void warn_of_shortage(const Scene& scene, const RenderSettings& settings) {
@@ -82,7 +77,7 @@ int run(const CheckOptions& options) {
   warn_of_shortage(*scene, {});
   if (options.verbosity == Verbosity::quiet) return exit_success;
   std::cout << explain(session.description(), *scene, needs_within_tolerance(*scene))
-            << strategy_lines(*scene, strategy_of_all(*scene)) << memory_line(*scene, {});
+            << memory_line(*scene, {});
   if (frames.size() > 1) {
     std::cout << reuse_line(last) << "No mistakes in " << checked.size() << " of its " << frames.size()
               << " frames.\n";

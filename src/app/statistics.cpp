@@ -11,7 +11,6 @@
 
 #include "backlight/base/interrupted.h"
 #include "backlight/base/json_text.h"
-#include "strategy_words.h"
 
 namespace backlight {
 namespace {
@@ -60,12 +59,10 @@ std::string statistics_json(const Scene& scene, const Needs& needs, const Render
   object.count("frames", needs.frames).count("movingFrames", needs.moving_frames);
   object.count("extendedFrames", needs.extended_frames).count("surfaces", needs.surfaces);
   object.text("roots", in_words(needs.roots)).count("textures", needs.textures);
-  object.text("rays", statistics.strategy.rays).text("cameraCulling", in_words(statistics.strategy.camera));
-  object.json("shadowCulling", shadows_json(statistics.strategy));
   object.number("threads", statistics.threads).number("seconds", statistics.seconds);
   object.number("threadSeconds", statistics.thread_seconds);
   object.count("cameraRays", statistics.rays.primary).count("shadowRays", statistics.rays.shadow);
-  object.count("dataRays", statistics.rays.data);
+  object.count("dataRays", statistics.rays.data).count("singleRays", statistics.rays.single);
   object.count("nonFinitePixels", faults.non_finite).count("beyondHalfPixels", faults.beyond_half);
   object.count("saturatedPixels", faults.saturated);
   object.count("surfacesMade", scene.counts.surfaces_made)

@@ -89,7 +89,8 @@ struct ImageTracing::Parts {
         stop(the_stop),
         progress(the_progress),
         grid(scene, settings),
-        tracer(scene, settings.wavelengths, settings.pieces) {
+        tracer(scene, settings.wavelengths, settings.pieces,
+               settings.path == RayPath::sheets ? Search::tree : Search::every_surface) {
     const bool in_sheets = settings.path == RayPath::sheets && settings.pieces.retarded_shadows;
     if (in_sheets && SheetTracer::can_trace(scene)) {
       sheets.emplace(tracer, settings.instructions);
@@ -136,7 +137,6 @@ void ImageTracing::tile(std::size_t index, int thread) {
 
 RenderStatistics ImageTracing::statistics() const {
   RenderStatistics statistics = summed(parts_->memories);
-  statistics.strategy = parts_->sheets ? parts_->sheets->strategy() : parts_->tracer.strategy();
   statistics.threads = parts_->settings.threads;
   return statistics;
 }

@@ -80,10 +80,10 @@ class HiddenLamps {
     const Vec3 camera = exposure.x.rounded();
     const double near = 1e-12 * (glm::length(lamp) + glm::length(camera - lamp));
     const bool touches = passes_by(lamp, near, [&](const Vec3& start, const Vec3& way, double length) {
-      return surfaces.blocked(start, way, 0.0, length, clock);
+      return surfaces.blocked(start, way, length, clock);
     });
     if (!touches && !all_ways([&](const Vec3& way) {
-          return surfaces.blocked(lamp, way, 0.0, std::numeric_limits<double>::infinity(), clock);
+          return surfaces.blocked(lamp, way, std::numeric_limits<double>::infinity(), clock);
         })) {
       return;
     }

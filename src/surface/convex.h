@@ -1,4 +1,4 @@
-// What convex bodies share: the stretch of a line inside, narrowed face by face, and quadratic equations.
+// The stretch of a line inside a convex body, narrowed face by face.
 #pragma once
 
 #include "shape_table.h"
@@ -25,15 +25,6 @@ struct Stretch {
     }
   }
   void close() { out = -infinite; }
-
-  [[nodiscard]] Crossings ends() const {
-    Crossings result;
-    if (in <= out && in > -infinite && out < infinite) {
-      result.add(in, part_in);
-      result.add(out, part_out);
-    }
-    return result;
-  }
 };
 
 /// |coordinate| <= half, the faces being `low_part` and `low_part` + 1.
@@ -45,22 +36,6 @@ inline void narrow_to_slab(Stretch& stretch, double point, double direction, dou
   } else if (!(std::abs(point) <= half)) {
     stretch.close();
   }
-}
-
-/// The roots of a t² + 2 b t + c, without cancellation: q/a and c/q with q = -(b ± √(b²-ac)), b and the root
-/// of the same sign. `discriminant` is b² - ac, non-negative.
-struct QuadraticRoots {
-  double over_a;  // may be infinite
-  double under_c;
-};
-
-inline QuadraticRoots quadratic_roots(double a, double b, double c, double discriminant) {
-  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-  if (q == 0.0) {
-    return {0.0,
-            0.0};  // b = 0 and ac = 0: a double root, or (a = 0) no proper equation, which callers exclude
-  }
-  return {q / a, c / q};
 }
 
 }  // namespace backlight

@@ -66,7 +66,7 @@ Crossing crossing_at(const PlacedSurface& leaf, const LocalLine& line, const Cro
 
 LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
   const Solid::Leaf& leaf = shape.solid->leaves()[static_cast<std::size_t>(crossing.part / codes_of_leaf)];
-  const LocalLine part = local_line(RestRay(line.point, line.direction, line.clock), leaf.surface);
+  const LocalLine part = local_line({line.point, line.direction, line.clock}, leaf.surface);
   const SurfacePoint point = surface_point(
       leaf.surface, part,
       crossing_at(leaf.surface, part,
@@ -88,8 +88,15 @@ RootFinder finder_of(const Shape& /*shape*/) {
 
 }  // namespace
 
-const ShapeMethods csg_methods{ShapeKind::csg, "csg",    true,    problem_of, bounding_radius, half_extent,
-                               crossings_of,   point_of, nullptr, nullptr,    finder_of};
+const ShapeMethods csg_methods{.kind = ShapeKind::csg,
+                               .name = "csg",
+                               .encloses = true,
+                               .problem = problem_of,
+                               .bounding_radius = bounding_radius,
+                               .half_extent = half_extent,
+                               .crossings = crossings_of,
+                               .point = point_of,
+                               .finder = finder_of};
 
 Shape csg(const SolidTree& tree) {
   Shape shape;

@@ -16,7 +16,7 @@ bool is_solid_beyond(const Shape& shape) {
 }
 
 AxisBox box_of(const PlacedSurface& surface) {
-  if (std::isfinite(surface.radius) && !is_solid_beyond(surface.shape)) return axis_box(surface);
+  if (std::isfinite(surface.radius()) && !is_solid_beyond(surface.shape)) return axis_box(surface);
   AxisBox everything;
   everything.lo = Vec3{-infinite};
   everything.hi = Vec3{infinite};

@@ -17,17 +17,17 @@ constexpr double least_cosine = 1e-10;
 /// Where the line gets into the bounding sphere of a part; infinity: nowhere. Rounding makes it too early,
 /// never too late.
 double meets_at(const LocalLine& line, const PlacedSurface& part) {
-  if (std::isinf(part.radius)) return -infinite;
-  const Vec3 from = line.point - part.placement.position();
+  if (std::isinf(part.radius())) return -infinite;
+  const Vec3 from = line.point - part.position();
   const double middle = -glm::dot(from, line.direction);
   const Vec3 off = from + middle * line.direction;
-  const double reach = part.radius + rounding_room * (std::abs(from.x) + std::abs(from.y) + std::abs(from.z));
+  const double reach = part.radius() + rounding_room * (std::abs(from.x) + std::abs(from.y) + std::abs(from.z));
   const double square = reach * reach - glm::dot(off, off);
   return square >= 0.0 ? middle - std::sqrt(square) - rounding_room * (std::abs(middle) + reach) : infinite;
 }
 
 double size_of(const PlacedSurface& part) {
-  return std::isfinite(part.radius) ? part.radius + glm::length(part.placement.position()) : 0.0;
+  return std::isfinite(part.radius()) ? part.radius() + glm::length(part.position()) : 0.0;
 }
 
 bool later(const Sweep::Next& a, const Sweep::Next& b) {
@@ -37,7 +37,7 @@ bool later(const Sweep::Next& a, const Sweep::Next& b) {
 }  // namespace
 
 Sweep::Sweep(const Solid& solid, const LocalLine& line, double from, Scratch& scratch)
-    : solid_(solid), line_(line), ray_(line.point, line.direction, line.clock), reached_(from), s_(scratch) {
+    : solid_(solid), line_(line), ray_{line.point, line.direction, line.clock}, reached_(from), s_(scratch) {
   s_.heap.clear();
   s_.put_off.clear();
   s_.insides.begin(solid);

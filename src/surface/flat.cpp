@@ -1,23 +1,10 @@
 // Disks and planes.
 #include <algorithm>
 
-#include "shape_table.h"
+#include "one_lane.h"
 
 namespace backlight {
 namespace {
-
-/// y = 0 inside `radius`.
-Crossings flat_crossings(double radius, const LocalLine& line) {
-  Crossings result;
-  if (line.direction.y != 0.0) {
-    const double t = -line.point.y / line.direction.y;
-    const Vec3 p = line.at(t);
-    if (p.x * p.x + p.z * p.z <= radius * radius) {
-      result.add(t, 0);
-    }
-  }
-  return result;
-}
 
 std::string disk_problem(const Shape& shape) {
   return unless_positive("radius", shape.values[0]);
@@ -43,41 +30,41 @@ double no_extent(const Shape& /*shape*/, const Extent& /*e*/) {
   return infinite;
 }
 
-Crossings disk_crossings(const Shape& shape, const LocalLine& line, double /*lambda_min*/,
-                         Wanted /*wanted*/) {
-  return flat_crossings(shape.values[0], line);
-}
-
-Crossings plane_crossings(const Shape& /*shape*/, const LocalLine& line, double /*lambda_min*/,
-                          Wanted /*wanted*/) {
-  Crossings result = flat_crossings(infinite, line);
-  const double below = result.count > 0 ? -line.direction.y : line.point.y;
-  result.inside_before = below < 0.0;  // the solid is the half-space y < 0
-  return result;
-}
-
-LocalPoint disk_point(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
-  return on_disc(shape.values[0], 0.0, 1.0, line.at(crossing.t));
-}
-
-LocalPoint plane_point(const Shape& /*shape*/, const LocalLine& line, const Crossing& crossing) {
-  const Vec3 p = line.at(crossing.t);
-  return {{p.x, 0.0, p.z}, {0.0, 1.0, 0.0}, p.x, p.z};
+void disk_texture(const Shape& shape, int /*part*/, LocalPoint& point) {
+  texture_of_disc(shape.values[0], 1.0, point);
 }
 
 }  // namespace
 
-const ShapeMethods disk_methods{ShapeKind::disk, "disk",         false,      disk_problem, disk_radius,
-                                disk_extent,     disk_crossings, disk_point, nullptr};
-const ShapeMethods plane_methods{ShapeKind::plane, "plane",         true,        plane_problem, no_radius,
-                                 no_extent,        plane_crossings, plane_point, nullptr};
+const ShapeMethods disk_methods{.kind = ShapeKind::disk,
+                                .name = "disk",
+                                .encloses = false,
+                                .is_convex = true,
+                                .is_flat = true,
+                                .problem = disk_problem,
+                                .bounding_radius = disk_radius,
+                                .half_extent = disk_extent,
+                                .crossings = crossings_by<FlatForm<true>>,
+                                .point = point_by<FlatForm<true>, disk_texture>,
+                                .texture = disk_texture};
+const ShapeMethods plane_methods{.kind = ShapeKind::plane,
+                                 .name = "plane",
+                                 .encloses = true,
+                                 .is_convex = true,
+                                 .is_flat = true,
+                                 .problem = plane_problem,
+                                 .bounding_radius = no_radius,
+                                 .half_extent = no_extent,
+                                 .crossings = crossings_by<FlatForm<false>>,
+                                 .point = point_by<FlatForm<false>, texture_of_place>,
+                                 .texture = texture_of_place};
 
 Shape disk(double radius) {
-  return {ShapeKind::disk, {radius}, {}};
+  return {ShapeKind::disk, {radius}, {}, {}, {}};
 }
 
 Shape plane() {
-  return {ShapeKind::plane, {}, {}};
+  return {ShapeKind::plane, {}, {}, {}, {}};
 }
 
 }  // namespace backlight

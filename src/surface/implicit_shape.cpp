@@ -221,10 +221,19 @@ LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& c
 
 }  // namespace
 
-const ShapeMethods implicit_methods{
-    ShapeKind::implicit, "implicit",      true,     problem_of, radius_of,
-    extent_of,           crossings_of,    point_of, begin_walk, first_crossings_of,
-    finder_of,           implicit_points, blocks};
+const ShapeMethods implicit_methods{.kind = ShapeKind::implicit,
+                                    .name = "implicit",
+                                    .encloses = true,
+                                    .problem = problem_of,
+                                    .bounding_radius = radius_of,
+                                    .half_extent = extent_of,
+                                    .crossings = crossings_of,
+                                    .point = point_of,
+                                    .begin_walk = begin_walk,
+                                    .first_crossings = first_crossings_of,
+                                    .finder = finder_of,
+                                    .points = implicit_points,
+                                    .blocks = blocks};
 
 std::uint64_t roots_solved_by_this_thread() {
   return roots_solved;

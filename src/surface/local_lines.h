@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "backlight/surface/lane_surface.h"
 #include "local_line.h"
 
 namespace backlight {
@@ -78,23 +77,11 @@ struct LocalLines {
   }
 };
 
-/// A PlacedSurface as the lanes have it.
-inline LanePlacement lane_placement(const PlacedSurface& surface) {
-  LanePlacement result;
-  result.aligned = surface.aligned;
-  for (int c = 0; c < 3; ++c) {
-    result.centre[c] = surface.placement.position()[c];
-    for (int r = 0; r < 3; ++r)
-      result.local_from_rest.column[c][r] = surface.placement.local_from_rest()[c][r];
-  }
-  return result;
-}
-
 /// local_line() of the rays of `lines`, a padded number of them.
 template <class V>
-void bring_lines(const LanePlacement& placement, LocalLines& lines) {
+void bring_lines(const LaneSurface& surface, LocalLines& lines) {
   for (std::size_t k = 0; k < lines.padded(); k += V::width) {
-    const LaneLine<V> line = lane_line<V>(placement, {load3<V>(lines.origin, k), load3<V>(lines.along, k)});
+    const LaneLine<V> line = lane_line<V>(surface, {load3<V>(lines.origin, k), load3<V>(lines.along, k)});
     const V rate = V::load(lines.rate + k);
     (V::load(lines.time + k) + (line.lambda_centre + line.lambda_shift) * rate).store(lines.clock_start + k);
     (line.lambda_per_length * rate).store(lines.clock_rate + k);

@@ -3,6 +3,7 @@
 
 #include "backlight/surface/placement.h"
 #include "backlight/surface/shape.h"
+#include "lane_surface.h"
 
 namespace backlight {
 
@@ -19,14 +20,11 @@ struct AxisBox {
 
 struct PlacedSurface {
   Shape shape;
-  Placement placement;
-  double radius;  ///< of the bounding sphere about placement.position(), rest frame; may be infinite
-  bool aligned;   ///< neither turned nor scaled: local and rest coordinates have the same axes
-  bool casts_shadow = true;
+  LaneSurface lanes;
 
-  [[nodiscard]] Vec3 to_local(const Vec3& rest) const {
-    return aligned ? rest : placement.local_from_rest() * rest;
-  }
+  [[nodiscard]] Vec3 position() const { return {lanes.centre[0], lanes.centre[1], lanes.centre[2]}; }
+  /// Of the bounding sphere about position(), rest frame; may be infinite.
+  [[nodiscard]] double radius() const { return lanes.radius; }
 };
 
 PlacedSurface place(const Shape& shape, const Placement& placement);

@@ -32,9 +32,15 @@ double longitude(double x, double z) {
   return 0.5 + std::atan2(x, z) * (0.5 * std::numbers::inv_pi);
 }
 
-LocalPoint on_disc(double radius, double y, double side, const Vec3& p) {
+void texture_of_disc(double radius, double side, LocalPoint& point) {
   const double scale = 0.5 / radius;
-  return {{p.x, y, p.z}, {0.0, side, 0.0}, 0.5 + p.x * scale, 0.5 + side * p.z * scale};
+  point.u = 0.5 + point.position.x * scale;
+  point.v = 0.5 + side * point.position.z * scale;
+}
+
+void texture_of_place(const Shape& /*shape*/, int /*part*/, LocalPoint& point) {
+  point.u = point.position.x;
+  point.v = point.position.z;
 }
 
 bool is_infinite(const Shape& shape) {

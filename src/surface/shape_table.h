@@ -38,10 +38,11 @@ struct Crossings {
 /// together. `all`: the whole line; they may differ from the first ones by rounding.
 enum class Wanted { first, all };
 
-/// The first crossing of a line, at t, of the face 0; infinity: there is none.
+/// The first crossing of a line, at t; infinity: there is none.
 struct FirstOnLine {
   double t = std::numeric_limits<double>::infinity();
   bool unresolved = false;
+  int part = 0;
 };
 
 /// A point put onto the surface, in local coordinates. The gradient points outward and has any length.
@@ -72,6 +73,10 @@ struct ShapeMethods {
   const char* name;
   /// Whether the shape has an inside, so that CSG can take it.
   bool encloses;
+  /// Whether no line that leaves its surface on the outside meets it again.
+  bool is_convex = false;
+  /// Whether none does that leaves it on the inside.
+  bool is_flat = false;
   /// What is wrong with the shape, or an empty text.
   std::string (*problem)(const Shape&);
   /// Of the bounding sphere about the local origin, stretched by the factors >= 0 along the local axes;
@@ -84,17 +89,21 @@ struct ShapeMethods {
   LocalPoint (*point)(const Shape&, const LocalLine&, const Crossing&);
   /// Begins the walk over the crossings of a shape that may have more than four; it may leave out those
   /// before the line's parameter `from`. Null: `crossings` reports them all.
-  void (*begin_walk)(const Shape&, const LocalLine&, double from, SolidWalk&);
+  void (*begin_walk)(const Shape&, const LocalLine&, double from, SolidWalk&) = nullptr;
   /// The first crossings of many lines at once, each as `crossings` would report it; null: one by one.
-  void (*first_crossings)(const Shape&, const LocalLines&, double lambda_min, std::span<FirstOnLine>);
+  void (*first_crossings)(const Shape&, const LocalLines&, double lambda_min,
+                          std::span<FirstOnLine>) = nullptr;
   /// How crossings are found; null: in closed form.
-  RootFinder (*finder)(const Shape&);
+  RootFinder (*finder)(const Shape&) = nullptr;
   /// The points of many crossings, each on its own line and as `point` would find it; null: one by one.
   void (*points)(const Shape&, const LocalLines&, std::span<const Crossing>, TextureCoordinates,
-                 std::span<LocalPoint>);
+                 std::span<LocalPoint>) = nullptr;
   /// Whether each of many lines crosses the shape between the two λ, however many are asked together. Null:
   /// that is asked of the first crossings. A shape has it if it has first_crossings.
-  void (*blocks)(const Shape&, const LocalLines&, double lambda_min, double lambda_max, std::span<bool>);
+  void (*blocks)(const Shape&, const LocalLines&, double lambda_min, double lambda_max,
+                 std::span<bool>) = nullptr;
+  /// Fills u and v of a point of a face, where only its place is known; null: `point` and `points` do.
+  void (*texture)(const Shape&, int part, LocalPoint&) = nullptr;
 };
 
 /// The row of a kind.
@@ -123,7 +132,10 @@ std::string first_of(std::string one, std::string other);
 /// Longitude about y as a fraction of a turn: 1/2 at +z, growing towards +x.
 double longitude(double x, double z);
 
-/// The point of a disc of `radius` at height y that faces up (side = 1) or down (side = -1).
-LocalPoint on_disc(double radius, double y, double side, const Vec3& p);
+/// Texture coordinates of a disc of `radius` that faces up (side = 1) or down (side = -1).
+void texture_of_disc(double radius, double side, LocalPoint& point);
+
+/// u = x, v = z.
+void texture_of_place(const Shape& shape, int part, LocalPoint& point);
 
 }  // namespace backlight

@@ -4,18 +4,28 @@
 #include "local_lines.h"
 #include "polynomial_lanes.h"
 #include "torus_lanes.h"
+#include "walk.h"
 
 namespace backlight {
 
 struct SurfaceKernels {
-  void (*local_lines)(const LanePlacement&, LocalLines&);
+  void (*local_lines)(const LaneSurface&, LocalLines&);
   void (*torus_roots)(const TorusQuestion&, const LocalLines&, double* roots);
   PolynomialKernels (*polynomials)(int degree);
+  decltype(&Walk<1>::nearest) nearest;
+  decltype(&Walk<1>::blocked) blocked;
+  decltype(&Walk<1>::points) points;
 };
 
 template <class V>
 SurfaceKernels surface_kernels_of() {
-  return {bring_lines<V>, TorusLanes<V>::run, polynomial_kernels_of<V>};
+  using W = Walk<V::width>;
+  return {.local_lines = bring_lines<V>,
+          .torus_roots = TorusLanes<V>::run,
+          .polynomials = polynomial_kernels_of<V>,
+          .nearest = W::nearest,
+          .blocked = W::blocked,
+          .points = W::points};
 }
 
 SurfaceKernels baseline_surface_kernels();
@@ -23,7 +33,7 @@ SurfaceKernels baseline_surface_kernels();
 SurfaceKernels avx2_surface_kernels();
 SurfaceKernels avx512_surface_kernels();
 
-/// Those of the widest lanes that this processor is good at.
-const SurfaceKernels& surface_kernels();
+/// Those of the widest lanes that this processor is good at, or of fewer.
+const SurfaceKernels& surface_kernels(InstructionSet set = InstructionSet::widest);
 
 }  // namespace backlight

@@ -5,10 +5,10 @@
 namespace backlight {
 namespace {
 
-SurfaceKernels widest() {
+SurfaceKernels kernels_of(InstructionSet set) {
 #if defined(__x86_64__)
-  if (has_good_avx512()) return avx512_surface_kernels();
-  if (has_avx2()) return avx2_surface_kernels();
+  if (set == InstructionSet::widest && has_good_avx512()) return avx512_surface_kernels();
+  if (set != InstructionSet::baseline && has_avx2()) return avx2_surface_kernels();
 #endif
   return baseline_surface_kernels();
 }
@@ -19,9 +19,11 @@ SurfaceKernels baseline_surface_kernels() {
   return surface_kernels_of<Lanes<2>>();
 }
 
-const SurfaceKernels& surface_kernels() {
-  static const SurfaceKernels kernels = widest();
-  return kernels;
+const SurfaceKernels& surface_kernels(InstructionSet set) {
+  static const SurfaceKernels widest = kernels_of(InstructionSet::widest);
+  static const SurfaceKernels avx2 = kernels_of(InstructionSet::avx2);
+  static const SurfaceKernels baseline = kernels_of(InstructionSet::baseline);
+  return set == InstructionSet::widest ? widest : set == InstructionSet::avx2 ? avx2 : baseline;
 }
 
 }  // namespace backlight

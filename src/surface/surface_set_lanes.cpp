@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "backlight/surface/surface_set.h"
-#include "placed_surface.h"
 #include "shape_table.h"
 #include "surface_kernels.h"
 #include "surface_point.h"
@@ -11,110 +10,172 @@
 namespace backlight {
 namespace {
 
-/// The rays from `first` on, as many as there is room for, brought next to a surface.
-const LocalLines& lines_of(const PlacedSurface& surface, const SurfaceSet::Rays& rays, std::size_t first) {
-  thread_local LocalLines lines;
-  lines.count = std::min(LocalLines::most, rays.count - first);
-  const auto copy = [&](const double* from, double* to) {
-    std::copy_n(from + first, lines.count, to);
-    std::fill(to + lines.count, to + lines.padded(), to[lines.count - 1]);
-  };
-  for (int axis = 0; axis < 3; ++axis) {
-    copy(rays.origin[axis], lines.origin[axis]);
-    copy(rays.direction[axis], lines.along[axis]);
+/// Some of the rays brought next to a surface; `ray_of`: which they are.
+struct Near {
+  LocalLines lines;
+  int ray_of[sheet_size];
+
+  Near(const PlacedSurface& surface, const RaySheet& sheet, std::uint64_t rays) {
+    for (; rays != 0; rays &= rays - 1) add(sheet, __builtin_ctzll(rays));
+    for (std::size_t i = lines.count; i < lines.padded(); ++i) put(sheet, ray_of[lines.count - 1], i);
+    surface_kernels(sheet.instructions).local_lines(surface.lanes, lines);
   }
-  copy(rays.time, lines.time);
-  copy(rays.rate, lines.rate);
-  surface_kernels().local_lines(lane_placement(surface), lines);
-  return lines;
+
+ private:
+  void add(const RaySheet& sheet, int ray) {
+    put(sheet, ray, lines.count);
+    ray_of[lines.count++] = ray;
+  }
+  void put(const RaySheet& sheet, int ray, std::size_t i) {
+    const int from = sheet.one_origin ? 0 : ray;
+    for (int k = 0; k < 3; ++k) {
+      lines.origin[k][i] = sheet.origin[k][from];
+      lines.along[k][i] = sheet.direction[k][ray];
+    }
+    lines.time[i] = sheet.start_time[from];
+    lines.rate[i] = sheet.time_rate[ray];
+  }
+};
+
+/// The first crossings of a shape without a closed form.
+void first_crossings(const Shape& shape, const LocalLines& lines, std::span<FirstOnLine> found) {
+  if (methods(shape).first_crossings != nullptr) {
+    methods(shape).first_crossings(shape, lines, 0.0, found);
+    return;
+  }
+  for (std::size_t i = 0; i < lines.count; ++i) {
+    const Crossings first = crossings(shape, lines.line(i), 0.0, Wanted::first);
+    found[i] = {};
+    if (first.count > 0) found[i] = {first.list[0].t, first.list[0].unresolved, first.list[0].part};
+  }
 }
 
-RestRay ray_of(const SurfaceSet::Rays& rays, std::size_t i) {
-  return {{rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]},
-          {rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]},
-          {rays.time[i], rays.rate[i]}};
+bool nearest_of(const void* set, int index, std::uint64_t rays, const RaySheet& sheet, double who,
+                SheetHits& hits) {
+  const PlacedSurface& surface = static_cast<const PlacedSurface*>(set)[index];
+  const Near near(surface, sheet, rays);
+  FirstOnLine found[LocalLines::most];
+  first_crossings(surface.shape, near.lines, {found, near.lines.count});
+  bool any = false;
+  for (std::size_t i = 0; i < near.lines.count; ++i) {
+    const double lambda = near.lines.lambda(i, found[i].t);
+    const int ray = near.ray_of[i];
+    const bool first = lambda < hits.lambda[ray] || (lambda == hits.lambda[ray] && who < hits.who[ray]);
+    if (!(lambda > 0.0) || !first) continue;
+    hits.lambda[ray] = lambda;
+    hits.who[ray] = who;
+    hits.along[ray] = found[i].t;
+    hits.part[ray] = found[i].unresolved ? -1.0 - found[i].part : found[i].part;
+    any = true;
+  }
+  return any;
+}
+
+std::uint64_t blocked_by(const void* set, int index, std::uint64_t rays, const RaySheet& sheet,
+                         double lambda_max) {
+  const PlacedSurface& surface = static_cast<const PlacedSurface*>(set)[index];
+  const Near near(surface, sheet, rays);
+  bool blocked[LocalLines::most];
+  if (methods(surface.shape).blocks != nullptr) {
+    methods(surface.shape).blocks(surface.shape, near.lines, 0.0, lambda_max, {blocked, near.lines.count});
+  } else {
+    FirstOnLine found[LocalLines::most];
+    first_crossings(surface.shape, near.lines, {found, near.lines.count});
+    for (std::size_t i = 0; i < near.lines.count; ++i) {
+      blocked[i] = near.lines.lambda(i, found[i].t) < lambda_max;
+    }
+  }
+  std::uint64_t all = 0;
+  for (std::size_t i = 0; i < near.lines.count; ++i) {
+    if (blocked[i]) all |= std::uint64_t{1} << near.ray_of[i];
+  }
+  return all;
+}
+
+void put(const SurfacePoint& point, int ray, SheetPoints& out) {
+  for (int k = 0; k < 3; ++k) {
+    out.position[k][ray] = point.position[k];
+    out.normal[k][ray] = point.normal[k];
+  }
+  out.error_bound[ray] = point.error_bound;
+  out.u[ray] = point.u;
+  out.v[ray] = point.v;
+  out.member[ray] = point.member;
+}
+
+/// Of a shape without a closed form.
+void points_by_lines(const PlacedSurface& surface, const Near& near, const SheetHits& hits, bool textured,
+                     SheetPoints& out) {
+  Crossing crossings[LocalLines::most];
+  LocalPoint local[LocalLines::most];
+  const std::size_t count = near.lines.count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int ray = near.ray_of[i];
+    crossings[i] = {hits.along[ray], hits.part_of(ray), hits.is_unresolved(ray)};
+  }
+  const auto wanted = textured ? TextureCoordinates::wanted : TextureCoordinates::unwanted;
+  const ShapeMethods& shape = methods(surface.shape);
+  if (shape.points != nullptr) {
+    shape.points(surface.shape, near.lines, {crossings, count}, wanted, {local, count});
+  } else {
+    for (std::size_t i = 0; i < count; ++i) {
+      local[i] = shape.point(surface.shape, near.lines.line(i), crossings[i]);
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) put(surface_point(surface, local[i]), near.ray_of[i], out);
 }
 
 }  // namespace
 
-void SurfaceSet::first_crossings_of(int surface, const Rays& rays, std::span<Hit> hits) const {
-  const PlacedSurface& placed = surfaces_[static_cast<std::size_t>(surface)];
-  const auto many = methods(placed.shape).first_crossings;
-  if (many == nullptr) {
-    for (std::size_t i = 0; i < rays.count; ++i) {
-      const RestRay ray = ray_of(rays, i);
-      hits[i] = first_crossing_of(surface, ray.origin, ray.direction, ray.clock);
-    }
-    return;
-  }
-  FirstOnLine found[LocalLines::most];
-  for (std::size_t first = 0; first < rays.count; first += LocalLines::most) {
-    const LocalLines& lines = lines_of(placed, rays, first);
-    many(placed.shape, lines, 0.0, {found, lines.count});
-    for (std::size_t i = 0; i < lines.count; ++i) {
-      const FirstOnLine& its = found[i];
-      const double lambda = lines.lambda(i, its.t);
-      const bool hit = lambda > 0.0 && lambda < infinite;
-      hits[first + i] = hit ? Hit{lambda, surface, 0, its.unresolved, its.t} : Hit{};
-    }
-  }
+WalkSurfaces SurfaceSet::walk_surfaces(Among among, double first_number) const {
+  const std::size_t skipped = among == Among::bounded ? unbounded_ : 0;
+  return {.nodes = nodes_.empty() ? nullptr : nodes_.data(),
+          .surfaces = surfaces_.data(),
+          .direct = direct_.data() + skipped,
+          .direct_count = static_cast<int>(direct_.size() - skipped),
+          .first_who = first_number,
+          .set = surfaces_.data(),
+          .nearest_of = nearest_of,
+          .blocked_by = blocked_by};
 }
 
-void SurfaceSet::blocked_by(int surface, const Rays& rays, double lambda_max, std::span<bool> blocked) const {
-  const PlacedSurface& placed = surfaces_[static_cast<std::size_t>(surface)];
-  const auto many = methods(placed.shape).blocks;
-  if (many == nullptr) {
-    for (std::size_t i = 0; i < rays.count; ++i) {
-      blocked[i] = is_blocked_by(placed, ray_of(rays, i), 0.0, lambda_max);
-    }
-    return;
-  }
-  for (std::size_t first = 0; first < rays.count; first += LocalLines::most) {
-    many(placed.shape, lines_of(placed, rays, first), 0.0, lambda_max, blocked.subspan(first));
-  }
+void SurfaceSet::nearest(const RaySheet& sheet, std::uint64_t rays, double first_number, SheetHits& hits) const {
+  surface_kernels(sheet.instructions).nearest(walk_surfaces(Among::all, first_number), sheet, rays, hits);
 }
 
-void SurfaceSet::resolve_all(std::span<const Hit> hits, const Rays& rays, bool with_texture_coordinates,
-                             std::span<SurfacePoint> points) const {
-  const PlacedSurface& surface = surfaces_[static_cast<std::size_t>(hits[0].surface)];
-  const auto many = methods(surface.shape).points;
-  const auto lost = [](const Hit& hit) { return std::isnan(hit.along); };
-  if (many == nullptr || std::any_of(hits.begin(), hits.end(), lost)) {
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      const RestRay one = ray_of(rays, i);
-      points[i] = resolve(hits[i], one.origin, one.direction, one.clock);
-    }
-    return;
-  }
-  const auto wanted = with_texture_coordinates ? TextureCoordinates::wanted : TextureCoordinates::unwanted;
-  Crossing crossings[LocalLines::most];
-  LocalPoint local[LocalLines::most];
-  for (std::size_t first = 0; first < rays.count; first += LocalLines::most) {
-    const LocalLines& lines = lines_of(surface, rays, first);
-    for (std::size_t i = 0; i < lines.count; ++i) {
-      const Hit& hit = hits[first + i];
-      crossings[i] = {hit.along, hit.part, hit.unresolved};
-    }
-    many(surface.shape, lines, {crossings, lines.count}, wanted, {local, lines.count});
-    for (std::size_t i = 0; i < lines.count; ++i) points[first + i] = surface_point(surface, local[i]);
-  }
+std::uint64_t SurfaceSet::blocked(const RaySheet& sheet, std::uint64_t rays, double lambda_max,
+                                  double first_number, const double (*own)[sheet_size]) const {
+  return surface_kernels(sheet.instructions)
+      .blocked(walk_surfaces(Among::all, first_number), sheet, rays, {lambda_max, own == nullptr ? nullptr : *own});
 }
 
-LaneSurface SurfaceSet::lane_surface(int surface) const {
-  const PlacedSurface& placed = surfaces_[static_cast<std::size_t>(surface)];
-  const Mat3& inverse = placed.placement.local_from_rest();
-  LaneSurface lanes{lane_placement(placed)};
-  if (placed.shape.kind == ShapeKind::sphere) lanes.kind = LaneSurface::Kind::sphere;
-  if (placed.shape.kind == ShapeKind::plane) lanes.kind = LaneSurface::Kind::plane;
-  lanes.radius = placed.shape.values[0];
-  lanes.bounding_radius = placed.radius;
-  for (int c = 0; c < 3; ++c) {
-    for (int r = 0; r < 3; ++r) {
-      lanes.normal_from_gradient.column[c][r] = inverse[r][c];
-      lanes.rest_from_local.column[c][r] = placed.placement.rest_from_local()[c][r];
-    }
+void SurfaceSet::points(const RaySheet& sheet, int surface, int first, int last, const SheetHits& hits,
+                        bool with_texture_coordinates, SheetPoints& points) const {
+  const PlacedSurface& placed = at(surface);
+  const auto texture = methods(placed.shape).texture;
+  if (texture == nullptr) {
+    const std::uint64_t all = (last < 64 ? std::uint64_t{1} << last : 0) - (std::uint64_t{1} << first);
+    points_by_lines(placed, Near(placed, sheet, all), hits, with_texture_coordinates, points);
+    return;
   }
-  return lanes;
+  double local[3][sheet_size];
+  std::uint64_t left =
+      surface_kernels(sheet.instructions).points(placed.lanes, sheet, first, last, hits, points, local);
+  for (int i = first; i < last; ++i) {
+    points.member[i] = 0;
+    if (!with_texture_coordinates) continue;
+    LocalPoint point{.position = {local[0][i], local[1][i], local[2][i]}};
+    texture(placed.shape, hits.part_of(i), point);
+    points.u[i] = point.u;
+    points.v[i] = point.v;
+  }
+  for (; left != 0; left &= left - 1) {
+    const int i = __builtin_ctzll(left);
+    const int from = sheet.one_origin ? 0 : i;
+    const Vec3 origin{sheet.origin[0][from], sheet.origin[1][from], sheet.origin[2][from]};
+    const Vec3 direction{sheet.direction[0][i], sheet.direction[1][i], sheet.direction[2][i]};
+    put(resolve({hits.lambda[i], surface}, origin, direction), i, points);
+  }
 }
 
 }  // namespace backlight

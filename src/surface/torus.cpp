@@ -18,7 +18,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "shape_table.h"
+#include "one_lane.h"
 #include "surface_kernels.h"
 
 namespace backlight {
@@ -203,34 +203,11 @@ Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_
   return result;
 }
 
-LocalPoint point_on(const Shape& shape, const LocalLine& line, double t, TextureCoordinates wanted) {
-  const double major = shape.values[0];
-  const double minor = shape.values[1];
-  const Vec3 p = line.at(t);
-  const double rho = std::sqrt(p.x * p.x + p.z * p.z);
-  const double beside = rho - major;
-  const double scale = minor / std::sqrt(beside * beside + p.y * p.y);
-  const double per_rho = 1.0 / rho;
-  const double on_rho = (major + beside * scale) * per_rho;
-  LocalPoint point;
-  point.position = {p.x * on_rho, p.y * scale, p.z * on_rho};
-  point.gradient = {p.x * per_rho * beside, p.y, p.z * per_rho * beside};
-  if (wanted == TextureCoordinates::wanted) {
-    point.u = longitude(p.x, p.z);
-    point.v = 0.5 - std::atan2(p.y, beside) * (0.5 * std::numbers::inv_pi);
-  }
-  return point;
-}
-
-LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
-  return point_on(shape, line, crossing.t, TextureCoordinates::wanted);
-}
-
-void points_of(const Shape& shape, const LocalLines& lines, std::span<const Crossing> crossings,
-               TextureCoordinates wanted, std::span<LocalPoint> points) {
-  for (std::size_t i = 0; i < lines.count; ++i) {
-    points[i] = point_on(shape, lines.line(i), crossings[i].t, wanted);
-  }
+void texture(const Shape& shape, int /*part*/, LocalPoint& point) {
+  const Vec3& on = point.position;
+  const double beside = std::sqrt(on.x * on.x + on.z * on.z) - shape.values[0];
+  point.u = longitude(on.x, on.z);
+  point.v = 0.5 - std::atan2(on.y, beside) * (0.5 * std::numbers::inv_pi);
 }
 
 std::string problem_of(const Shape& shape) {
@@ -256,12 +233,21 @@ RootFinder finder_of(const Shape& /*shape*/) {
 
 }  // namespace
 
-const ShapeMethods torus_methods{ShapeKind::torus, "torus",      true,     problem_of, bounding_radius,
-                                 half_extent,      crossings_of, point_of, nullptr,    first_crossings_of,
-                                 finder_of,        points_of,    blocks};
+const ShapeMethods torus_methods{.kind = ShapeKind::torus,
+                                 .name = "torus",
+                                 .encloses = true,
+                                 .problem = problem_of,
+                                 .bounding_radius = bounding_radius,
+                                 .half_extent = half_extent,
+                                 .crossings = crossings_of,
+                                 .point = point_by<TorusForm, texture>,
+                                 .first_crossings = first_crossings_of,
+                                 .finder = finder_of,
+                                 .blocks = blocks,
+                                 .texture = texture};
 
 Shape torus(double major, double minor) {
-  return {ShapeKind::torus, {major, minor}, {}};
+  return {ShapeKind::torus, {major, minor}, {}, {}, {}};
 }
 
 }  // namespace backlight

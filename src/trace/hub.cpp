@@ -42,10 +42,11 @@ LightView view_of(const Light& light, const Scene& scene, double robust_from) {
 
 }  // namespace
 
-Hub make_hub(const Scene& scene, const ModelPieces& pieces) {
+Hub make_hub(const Scene& scene, const ModelPieces& pieces, Search search) {
   const double robust_from =
       pieces.robust_arithmetic ? robust_gamma : std::numeric_limits<double>::infinity();
   Hub hub;
+  hub.search = search;
   std::vector<bool> events_wanted(scene.frames.size(), false);
   events_wanted[0] = true;  // the time of emission is told in the world's
   for (const Light& light : scene.lights) events_wanted[static_cast<std::size_t>(light.frame)] = true;

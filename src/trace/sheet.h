@@ -7,12 +7,11 @@
 
 #include <cstdint>
 
-#include "backlight/surface/lane_surface.h"
+#include "backlight/base/lanes.h"
+#include "backlight/surface/ray_sheet.h"
 #include "backlight/trace/sheet_tracer.h"
 
 namespace backlight {
-
-inline constexpr int sheet_size = 64;  ///< rays: 8x8 pixels
 
 /// `count` rounded up to whole registers of any width.
 inline int padded_count(int count) {
@@ -20,7 +19,7 @@ inline int padded_count(int count) {
 }
 
 /// As many bits, from the lowest.
-inline std::uint64_t first_bits(int count) {
+BACKLIGHT_LANES std::uint64_t first_bits(int count) {
   return count < 64 ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
 }
 
@@ -47,8 +46,6 @@ struct SheetRays {
   int padded = 0;  ///< padded_count(count); the last ray is repeated
   bool light_delay = true;
   alignas(64) double direction[3][sheet_size];
-  alignas(64) double lambda[sheet_size];  ///< of the nearest hit so far; infinite: none
-  alignas(64) double who[sheet_size];     ///< whose it is (an index, exact as a double), or -1
 };
 
 /// A Lens of the perspective projection.
@@ -107,45 +104,46 @@ struct LightRays {
   double* lit;               ///< 1 or 0
 };
 
-/// Points of one surface, with what each kernel adds to them.
+/// Points of one frame and material, with what each kernel adds to them.
 struct PointSheet {
   int count = 0;
   int padded = 0;
   bool light_delay = true;
-  double frame = 0;  ///< index of the surface's frame
   int lane[sheet_size];
   int whole = -1;              ///< the sheet of rays, all of whose hits these are; or -1:
   const double* direction[3];  ///< of the camera ray, camera frame: that sheet's or `gathered`
-  const double* lambda;
-  alignas(64) double gathered[4][sheet_size];  ///< directions and λ, of several sheets
-  // resolve():
-  alignas(64) double position[3][sheet_size];
-  alignas(64) double normal[3][sheet_size];  ///< on the side that is seen
+  const SheetHits* hits;       ///< what they meet: that sheet's or `gathered_hits`
+  alignas(64) double gathered[3][sheet_size];
+  SheetHits gathered_hits;
+  // Neighbours of one surface.
+  struct Run {
+    int surface;  ///< its number
+    int first, last;
+  };
+  Run runs[sheet_size];
+  int run_count = 0;
+  RaySheet rays;       ///< the camera's, in their frame
+  SheetPoints points;  ///< the normal on the side that is seen, after face()
+  // face():
   alignas(64) double to_camera[3][sheet_size];
-  alignas(64) double start[3][sheet_size];  ///< of shadow rays
-  alignas(64) double u[sheet_size];
-  alignas(64) double v[sheet_size];
   alignas(64) double proper_time[sheet_size];
   alignas(64) double doppler[sheet_size];  ///< D on the way to the camera
+  /// The number of the surface, if it never shades the side that is seen; or -1. Before face(): if it never
+  /// shades its outside.
+  alignas(64) double own[sheet_size];
+  alignas(64) double own_inside[sheet_size];  ///< the same if it never shades its inside
   // arrive(), for one light:
-  alignas(64) double lit[sheet_size];                ///< 1 or 0
-  alignas(64) double place[3][sheet_size];           ///< the point in the light's frame
-  alignas(64) double way[3][sheet_size];             ///< K, from the point to the light, in the light's frame
-  alignas(64) double way_length[sheet_size];         ///< |K|
-  alignas(64) double way_in_surface[3][sheet_size];  ///< the same in the surface's frame
-  alignas(64) double surface_length[sheet_size];     ///< |K| there
-  alignas(64) double to_light[3][sheet_size];        ///< unit, surface's frame
+  alignas(64) double lit[sheet_size];          ///< 1 or 0
+  alignas(64) double place[3][sheet_size];     ///< the point in the light's frame, of a distant one
+  alignas(64) double way[3][sheet_size];       ///< K, from the point to the light, in the light's frame
+  alignas(64) double way_length[sheet_size];   ///< |K|
+  RaySheet shadow;                             ///< the same in the points' frame, from off the surface
+  alignas(64) double to_light[3][sheet_size];  ///< unit, surface's frame
   alignas(64) double cosine[sheet_size];
   alignas(64) double lamp_doppler[sheet_size];
   alignas(64) double inverse_square[sheet_size];
   alignas(64) double emission_time[sheet_size];           ///< the lamp's own
   alignas(64) double relative_emission_time[sheet_size];  ///< the same from the camera event's
-  // occlude() for surfaces that take one ray at a time:
-  alignas(64) double trial[sheet_size];  ///< 1 where the shadow ray is to be tested
-  alignas(64) double trial_start[3][sheet_size];
-  alignas(64) double trial_direction[3][sheet_size];
-  alignas(64) double trial_time[sheet_size];  ///< of its start, in the occluder's frame...
-  alignas(64) double trial_rate[sheet_size];  ///< ...and how it changes along it
   // reflect():
   alignas(64) double strength[sheet_size];
   alignas(64) double irradiance[sheet_size];
@@ -153,6 +151,12 @@ struct PointSheet {
   alignas(64) double diffuse[3][sheet_size];  ///< film colour under this lamp
   alignas(64) double rgb[3][sheet_size];
 
+  /// The lit ones, one bit each.
+  [[nodiscard]] std::uint64_t lit_bits() const {
+    std::uint64_t all = 0;
+    for (int i = 0; i < sheet_size; ++i) all |= (lit[i] > 0.0 ? std::uint64_t{1} : 0) << i;
+    return all & first_bits(count);
+  }
   [[nodiscard]] LightRays light_rays() {
     return {{way[0], way[1], way[2]}, way_length, relative_emission_time, lit};
   }
@@ -185,16 +189,6 @@ struct LightSpan {
   double reach = 0.0;
 };
 
-/// One occluder's part in a shadow.
-struct LaneOccluder {
-  const LaneFrame* frame = nullptr;
-  const LaneMotion* from_light = nullptr;
-  const LaneSurface* surface = nullptr;
-  double frame_index = 0;
-  std::uint64_t candidates = 0;  ///< the points that it may shade, one bit each
-  double end = 1.0;              ///< of the segment to the light
-};
-
 /// How the points of a sheet reflect the light of one lamp.
 struct LaneReflection {
   LaneBrightness brightness;
@@ -213,7 +207,6 @@ struct LaneReflection {
 /// The kernels of one instruction set.
 struct SheetKernels {
   const char* name;
-  int width;
   /// The looking directions of a perspective image at the points (x, y): camera/projection.h.
   void (*look)(const LaneLens& lens, const double* x, const double* y, SheetRays& rays);
   /// The smallest bundle about the mean of the rays.
@@ -224,21 +217,16 @@ struct SheetKernels {
   void (*overlapping_lamps)(const LampTable& from, const Bundle& bundle, LampTable& to);
   /// Widens the bundle of light that reaches what the rays have hit: with `axis` null only the sums for the
   /// axis, of some of the rays.
-  void (*gather)(const LaneLamp& lamp, const SheetRays& rays, const double* axis, LightSpan& span);
-  /// Which rays are in the cone, one bit each.
-  std::uint64_t (*inside)(const SheetRays& rays, const LaneCone& cone);
-  /// Which rays have met this, one bit each.
-  std::uint64_t (*same)(const SheetRays& rays, double who);
-  /// Updates `lambda` and `who` where the surface is nearer.
-  void (*nearest)(const LaneFrame& frame, const LaneSurface& surface, const LaneCone& cone, double who,
-                  SheetRays& rays);
-  /// The rays' directions in the frame, and the rate of time along them: for surfaces that take one ray at a
-  /// time.
-  void (*in_frame)(const LaneFrame& frame, const SheetRays& rays, double (*direction)[sheet_size]);
-  /// Points of a sphere or plane. Bits: those that SurfaceSet::resolve has to find.
-  std::uint64_t (*resolve)(const LaneFrame& frame, const LaneSurface& surface, PointSheet& points);
+  void (*gather)(const LaneLamp& lamp, const SheetRays& rays, const SheetHits& hits, const double* axis,
+                 LightSpan& span);
+  /// Which of the first `count` hits are of this surface, one bit each.
+  std::uint64_t (*same)(const SheetHits& hits, int count, double who);
+  /// Which rays are in the cone, one bit each; those of their registers in the frame, into `to`.
+  std::uint64_t (*enter)(const LaneFrame& frame, const LaneCone& cone, const SheetRays& rays, RaySheet& to);
+  /// The camera rays of the points in their frame, into points.rays.
+  void (*in_frame)(const LaneFrame& frame, PointSheet& points);
   /// What follows from points however found: `to_camera`, proper time, D, and the normal's side.
-  void (*face)(const LaneFrame& frame, const double* error_bound, PointSheet& points);
+  void (*face)(PointSheet& points);
   /// What of a lamp's light reaches the points, but for shadows. Bits: the lit ones.
   std::uint64_t (*arrive)(const LaneLamp& lamp, PointSheet& points);
   /// The bundle of the lit rays from `first` to `last` (whole registers); false when there are none.
@@ -247,11 +235,11 @@ struct SheetKernels {
   /// amid their emission times. Bits, from the lowest for number 0: those of which that is not clear.
   std::uint64_t (*sift)(const LampTable& occluders, int which, double time, int first, int last,
                         const LightRays& rays);
-  /// The lit points at which the normal on the side that is seen points to `centre`, one bit each.
-  std::uint64_t (*inward)(const double (&centre)[3], const PointSheet& points);
-  /// Unlights those of the candidates that the occluder (sphere or plane) shades; for any other surface, sets
-  /// `trial`. Returns whether anything was lit or is to be tried.
-  bool (*occlude)(const LaneOccluder& occluder, PointSheet& points);
+  /// Which of the lit points may be shaded by their own surface, one bit each.
+  std::uint64_t (*turned)(const PointSheet& points);
+  /// The light of the lit points among the candidates in an occluder's frame, into `to`. Which they are.
+  std::uint64_t (*cast)(const LaneFrame& frame, const LaneMotion& from_light, std::uint64_t candidates,
+                        const PointSheet& points, RaySheet& to);
   /// Irradiance and Phong's lobe of the lit points.
   void (*reflect)(const LaneReflection& reflection, PointSheet& points);
   /// Both of these in one, without a word of what is between them.

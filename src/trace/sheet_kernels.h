@@ -282,26 +282,26 @@ struct KernelsOf {
     return unclear;
   }
 
-  static std::uint64_t inward(const double (&centre)[3], const PointSheet& p) {
+  static std::uint64_t turned(const PointSheet& p) {
     std::uint64_t all = 0;
     for (int i = 0; i < p.padded; i += N) {
       const Mask lit = V::load(p.lit + i) > V(0.0);
-      const V out = dot(load3<V>(p.normal, i), load3<V>(p.position, i) - V3(centre));
-      all |= static_cast<std::uint64_t>(bits(lit & ~(out > V(0.0)))) << i;
+      all |= static_cast<std::uint64_t>(bits(lit & (V::load(p.own + i) < V(0.0)))) << i;
     }
     return all;
   }
 
-  static void gather(const LaneLamp& lamp, const SheetRays& rays, const double* axis, LightSpan& span) {
+  static void gather(const LaneLamp& lamp, const SheetRays& rays, const SheetHits& hits, const double* axis,
+                     LightSpan& span) {
     const int step = axis == nullptr ? 4 * N : N;
     V3 sum{V(0.0), V(0.0), V(0.0)};
     V least = span.least_cosine, first = span.begin, last = span.end, reach = span.reach;
     const V3 a = axis == nullptr ? sum : V3{V(axis[0]), V(axis[1]), V(axis[2])};
     for (int i = 0; i < rays.padded; i += step) {
-      const Mask hit = V::load(rays.who + i) >= V(0.0);
+      const Mask hit = V::load(hits.who + i) >= V(0.0);
       if (bits(hit) == 0) continue;
       const LaneNull<V> n = looking(lamp.frame, load3<V>(rays.direction, i), rays.light_delay);
-      const V lambda = select(hit, V::load(rays.lambda + i), V(0.0));
+      const V lambda = select(hit, V::load(hits.lambda + i), V(0.0));
       const V3 out = V3(lamp.frame.origin) + lambda * n.x - V3(lamp.position);
       const V size = length(out);
       if (axis == nullptr) {
@@ -327,80 +327,65 @@ struct KernelsOf {
     span.reach = -least_of(-reach);
   }
 
-  static BACKLIGHT_LANES Mask in_cone(const SheetRays& rays, const LaneCone& cone, int i) {
-    return dot(load3<V>(rays.direction, i), V3(cone.axis)) >= V(cone.level);
-  }
-
-  static std::uint64_t inside(const SheetRays& rays, const LaneCone& cone) {
+  static std::uint64_t same(const SheetHits& hits, int count, double who) {
     std::uint64_t all = 0;
-    for (int i = 0; i < rays.padded; i += N)
-      all |= static_cast<std::uint64_t>(bits(in_cone(rays, cone, i))) << i;
-    return rays.count < 64 ? all & ((std::uint64_t{1} << rays.count) - 1) : all;
+    for (int i = 0; i < count; i += N)
+      all |= static_cast<std::uint64_t>(bits(V::load(hits.who + i) == V(who))) << i;
+    return all & first_bits(count);
   }
 
-  static std::uint64_t same(const SheetRays& rays, double who) {
+  static void begin_rays(const LaneFrame& frame, int padded, RaySheet& to) {
+    to.padded = padded;
+    to.one_origin = true;
+    for (int k = 0; k < 3; ++k) to.origin[k][0] = frame.origin[k];
+    to.start_time[0] = frame.time;
+  }
+
+  static BACKLIGHT_LANES void put_direction(LaneNull<V> n, bool light_delay, RaySheet& to, int i) {
+    store3(n.x, to.direction, i);
+    (-n.length).store(to.time_rate + i);
+    (light_delay ? n.length : length(n.x)).store(to.length + i);
+  }
+
+  static std::uint64_t enter(const LaneFrame& frame, const LaneCone& cone, const SheetRays& rays,
+                             RaySheet& to) {
     std::uint64_t all = 0;
-    for (int i = 0; i < rays.padded; i += N)
-      all |= static_cast<std::uint64_t>(bits(V::load(rays.who + i) == V(who))) << i;
-    return all;
-  }
-
-  static void nearest(const LaneFrame& frame, const LaneSurface& surface, const LaneCone& cone, double who,
-                      SheetRays& rays) {
-    const V3 origin(frame.origin);
+    begin_rays(frame, rays.padded, to);
     for (int i = 0; i < rays.padded; i += N) {
-      if (bits(in_cone(rays, cone, i)) == 0) continue;
-      const LaneNull<V> n = looking(frame, load3<V>(rays.direction, i), rays.light_delay);
-      const LaneCrossing<V> crossing = lane_crossing(surface, LaneRay<V>{origin, n.x});
-      const V before = V::load(rays.lambda + i);
-      const Mask nearer = crossing.found & (crossing.lambda < before);
-      select(nearer, crossing.lambda, before).store(rays.lambda + i);
-      select(nearer, V(who), V::load(rays.who + i)).store(rays.who + i);
+      const V3 d = load3<V>(rays.direction, i);
+      const unsigned inside = bits(dot(d, V3(cone.axis)) >= V(cone.level));
+      if (inside == 0) continue;
+      all |= static_cast<std::uint64_t>(inside) << i;
+      put_direction(looking(frame, d, rays.light_delay), rays.light_delay, to, i);
     }
+    return all & first_bits(rays.count);
   }
 
-  static void in_frame(const LaneFrame& frame, const SheetRays& rays, double (*direction)[sheet_size]) {
-    for (int i = 0; i < rays.padded; i += N) {
-      const LaneNull<V> n = looking(frame, load3<V>(rays.direction, i), rays.light_delay);
-      n.x.x.store(direction[0] + i);
-      n.x.y.store(direction[1] + i);
-      n.x.z.store(direction[2] + i);
-      (-n.length).store(direction[3] + i);
-    }
-  }
-
-  static BACKLIGHT_LANES void face_lanes(const LaneFrame& frame, const LaneNull<V>& n, V3 position, V3 normal,
-                                         V error_bound, PointSheet& p, int i) {
-    const V doppler = V(1.0) / n.length;
-    const V3 to_camera = (p.light_delay ? doppler : V(1.0) / length(n.x)) * -n.x;
-    const Mask outside = dot(normal, to_camera) >= V(0.0);
-    const V3 seen = select(outside, normal, -normal);
-    store3(seen, p.normal, i);
-    store3(to_camera, p.to_camera, i);
-    store3(position + error_bound * seen, p.start, i);
-    (V(frame.time) + V::load(p.lambda + i) * -n.length).store(p.proper_time + i);
-    (p.light_delay ? doppler : V(1.0)).store(p.doppler + i);
-  }
-
-  static std::uint64_t resolve(const LaneFrame& frame, const LaneSurface& surface, PointSheet& p) {
-    std::uint64_t left = 0;
-    const V3 origin(frame.origin);
+  static void in_frame(const LaneFrame& frame, PointSheet& p) {
+    begin_rays(frame, p.padded, p.rays);
     for (int i = 0; i < p.padded; i += N) {
-      const LaneNull<V> n = looking(frame, load3<V>(p.direction, i), p.light_delay);
-      const LanePoint<V> point = lane_resolve(surface, LaneRay<V>{origin, n.x}, V::load(p.lambda + i));
-      left |= static_cast<std::uint64_t>(bits(~point.resolved)) << i;
-      store3(point.position, p.position, i);
-      point.u.store(p.u + i);
-      point.v.store(p.v + i);
-      face_lanes(frame, n, point.position, point.normal, point.error_bound, p, i);
+      put_direction(looking(frame, load3<V>(p.direction, i), p.light_delay), p.light_delay, p.rays, i);
     }
-    return left;
   }
 
-  static void face(const LaneFrame& frame, const double* error_bound, PointSheet& p) {
+  static void face(PointSheet& p) {
+    p.shadow.padded = p.padded;
+    p.shadow.one_origin = false;
     for (int i = 0; i < p.padded; i += N) {
-      const LaneNull<V> n = looking(frame, load3<V>(p.direction, i), p.light_delay);
-      face_lanes(frame, n, load3<V>(p.position, i), load3<V>(p.normal, i), V::load(error_bound + i), p, i);
+      const V inverse_length = V(1.0) / V::load(p.rays.length + i);
+      const V3 to_camera = inverse_length * -load3<V>(p.rays.direction, i);
+      const V3 normal = load3<V>(p.points.normal, i);
+      const Mask outside = dot(normal, to_camera) >= V(0.0);
+      const V3 seen = select(outside, normal, -normal);
+      const V time =
+          V(p.rays.start_time[0]) + V::load(p.hits->lambda + i) * V::load(p.rays.time_rate + i);
+      store3(seen, p.points.normal, i);
+      store3(to_camera, p.to_camera, i);
+      store3(load3<V>(p.points.position, i) + V::load(p.points.error_bound + i) * seen, p.shadow.origin, i);
+      time.store(p.proper_time + i);
+      time.store(p.shadow.start_time + i);
+      (p.light_delay ? inverse_length : V(1.0)).store(p.doppler + i);
+      select(outside, V::load(p.own + i), V::load(p.own_inside + i)).store(p.own + i);
     }
   }
 
@@ -408,11 +393,19 @@ struct KernelsOf {
   static std::uint64_t arrive(const LaneLamp& lamp, PointSheet& p) {
     std::uint64_t all_lit = 0;
     for (int i = 0; i < p.padded; i += N) {
-      const LaneNull<V> n = looking(lamp.frame, load3<V>(p.direction, i), p.light_delay);
-      const V lambda = V::load(p.lambda + i);
-      const V relative = lambda * -n.length;
-      const V time = lamp.own_frame ? V::load(p.proper_time + i) : V(lamp.frame.time) + relative;
-      const V3 place = lamp.own_frame ? load3<V>(p.position, i) : V3(lamp.frame.origin) + lambda * n.x;
+      const V lambda = V::load(p.hits->lambda + i);
+      V relative, time;
+      V3 place;
+      if (lamp.own_frame) {
+        relative = lambda * V::load(p.rays.time_rate + i);
+        time = V::load(p.proper_time + i);
+        place = load3<V>(p.points.position, i);
+      } else {
+        const LaneNull<V> n = looking(lamp.frame, load3<V>(p.direction, i), p.light_delay);
+        relative = lambda * -n.length;
+        time = V(lamp.frame.time) + relative;
+        place = V3(lamp.frame.origin) + lambda * n.x;
+      }
       V3 way;
       V way_length;
       if (lamp.distant) {
@@ -429,22 +422,23 @@ struct KernelsOf {
       const LaneNull<V> k = boosted(lamp.to_surface, way, way_length);
       const V inverse_length = V(1.0) / k.length;
       const V3 to_light = inverse_length * k.x;
-      const V cosine = dot(load3<V>(p.normal, i), to_light);
+      const V cosine = dot(load3<V>(p.points.normal, i), to_light);
       const Mask lit = (k.length > V(0.0)) & (cosine > V(0.0));
       select(lit, V(1.0), V(0.0)).store(p.lit + i);
       all_lit |= static_cast<std::uint64_t>(bits(lit)) << i;
       if (lamp.distant) store3(place, p.place, i);
       store3(way, p.way, i);
       way_length.store(p.way_length + i);
-      store3(k.x, p.way_in_surface, i);
-      k.length.store(p.surface_length + i);
+      store3(k.x, p.shadow.direction, i);
+      k.length.store(p.shadow.length + i);
+      (-k.length).store(p.shadow.time_rate + i);
       store3(to_light, p.to_light, i);
       cosine.store(p.cosine + i);
       (k.length / way_length).store(p.lamp_doppler + i);
       (lamp.distant ? V(1.0) : inverse_length * inverse_length).store(p.inverse_square + i);
     }
     for (int i = p.count; i < p.padded; ++i) p.lit[i] = 0.0;
-    return p.count < 64 ? all_lit & ((std::uint64_t{1} << p.count) - 1) : all_lit;
+    return all_lit & first_bits(p.count);
   }
 
   static bool light_bundle(const LightRays& p, int begin_at, int end_at, Bundle& bundle) {
@@ -484,63 +478,25 @@ struct KernelsOf {
     return true;
   }
 
-  // Whether the segment may meet the sphere: its closest approach to the centre, without a division, and with
-  // room for the rounding of its squares. `length` is the ray's own: it is null.
-  static BACKLIGHT_LANES Mask may_meet(const LaneSurface& surface, const LaneRay<V>& ray, V length,
-                                       double end) {
-    const V3 o = ray.origin - V3(surface.centre);
-    const V square = dot(o, o);
-    const V along = dot(o, ray.direction);
-    const V radius = V(surface.bounding_radius) + V(4e-15) * largest_coordinate(o);
-    const V reach = radius * length * V(1.0 + 1e-11);
-    const V square_length = dot(ray.direction, ray.direction);
-    return (square * square_length - along * along <= reach * reach + V(1e-14) * square * square_length) &
-           (along <= reach) & (-along <= V(end) * square_length + reach);
-  }
-
-  static bool occlude(const LaneOccluder& o, PointSheet& p) {
-    const V3 origin(o.frame->origin);
-    const bool own = p.frame == o.frame_index;
-    const bool one_by_one = o.surface->kind == LaneSurface::Kind::other;
-    const bool round = o.surface->kind == LaneSurface::Kind::sphere;
-    bool any = false;
+  static std::uint64_t cast(const LaneFrame& frame, const LaneMotion& from_light, std::uint64_t candidates,
+                            const PointSheet& p, RaySheet& to) {
+    std::uint64_t all = 0;
+    to.padded = p.padded;
+    to.one_origin = false;
     for (int i = 0; i < p.padded; i += N) {
-      const V lit = V::load(p.lit + i);
-      Mask open = (lit > V(0.0)) & mask_of_bits<N>(static_cast<unsigned>(o.candidates >> i));
-      if (one_by_one) select(open, V(1.0), V(0.0)).store(p.trial + i);
-      if (bits(open) == 0) continue;
-      any = true;
-      const V3 way = load3<V>(p.way, i);
-      LaneRay<V> ray;
-      V time, rate;
-      if (own) {
-        ray = {load3<V>(p.start, i), load3<V>(p.way_in_surface, i)};
-        time = V::load(p.proper_time + i);
-        rate = -V::load(p.surface_length + i);
-      } else {
-        const LaneNull<V> n = looking(*o.frame, load3<V>(p.direction, i), p.light_delay);
-        const LaneNull<V> k = boosted(*o.from_light, way, V::load(p.way_length + i));
-        const V lambda = V::load(p.lambda + i);
-        ray = {origin + lambda * n.x, k.x};
-        time = V(o.frame->time) + lambda * -n.length;
-        rate = -k.length;
-      }
-      if (one_by_one) {
-        store3(ray.origin, p.trial_start, i);
-        store3(ray.direction, p.trial_direction, i);
-        time.store(p.trial_time + i);
-        rate.store(p.trial_rate + i);
-        continue;
-      }
-      if (round) {
-        open = open & may_meet(*o.surface, ray, -rate, o.end);
-        if (bits(open) == 0) continue;
-      }
-      const LaneCrossing<V> crossing = lane_crossing(*o.surface, ray);
-      const Mask blocked = open & crossing.found & (crossing.lambda < V(o.end));
-      select(blocked, V(0.0), lit).store(p.lit + i);
+      const unsigned open = bits(V::load(p.lit + i) > V(0.0)) & static_cast<unsigned>(candidates >> i);
+      if (open == 0) continue;
+      all |= static_cast<std::uint64_t>(open) << i;
+      const LaneNull<V> n = looking(frame, load3<V>(p.direction, i), p.light_delay);
+      const LaneNull<V> k = boosted(from_light, load3<V>(p.way, i), V::load(p.way_length + i));
+      const V lambda = V::load(p.hits->lambda + i);
+      store3(V3(frame.origin) + lambda * n.x, to.origin, i);
+      store3(k.x, to.direction, i);
+      k.length.store(to.length + i);
+      (-k.length).store(to.time_rate + i);
+      (V(frame.time) + lambda * -n.length).store(to.start_time + i);
     }
-    return any;
+    return all;
   }
 
   struct Reflected {
@@ -553,7 +509,7 @@ struct KernelsOf {
     const V irradiance = factor * strength * cosine * V::load(p.inverse_square + i);
     V lobe = 0.0;
     if (r.specular != 0.0) {
-      const V3 mirrored = V(2.0) * cosine * load3<V>(p.normal, i) - load3<V>(p.to_light, i);
+      const V3 mirrored = V(2.0) * cosine * load3<V>(p.points.normal, i) - load3<V>(p.to_light, i);
       const V alpha = dot(mirrored, load3<V>(p.to_camera, i));
       const Mask shines = alpha > V(0.0);
       if (bits(shines) != 0) {
@@ -607,9 +563,25 @@ struct KernelsOf {
   }
 
   static constexpr SheetKernels table(const char* name) {
-    return {name,    N,        look,      bundle, overlapping, overlapping_lamps, gather, inside, same,
-            nearest, in_frame, resolve,   face,   arrive,      light_bundle,      sift,   inward, occlude,
-            reflect, shine,    add_light, carry};
+    return {.name = name,
+            .look = look,
+            .bundle = bundle,
+            .overlapping = overlapping,
+            .overlapping_lamps = overlapping_lamps,
+            .gather = gather,
+            .same = same,
+            .enter = enter,
+            .in_frame = in_frame,
+            .face = face,
+            .arrive = arrive,
+            .light_bundle = light_bundle,
+            .sift = sift,
+            .turned = turned,
+            .cast = cast,
+            .reflect = reflect,
+            .shine = shine,
+            .add_light = add_light,
+            .carry = carry};
   }
 };
 

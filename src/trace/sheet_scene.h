@@ -37,31 +37,32 @@ class LampStore {
   std::unique_ptr<double[]> numbers_;
 };
 
-/// Something that a ray may meet: a surface, or many of a frame by SurfaceSet's own search.
-struct Occupant {
-  static constexpr int whole_frame = -1;
-  static constexpr int all_bounded = -2;
-
+/// A frame with surfaces: what a ray may meet, by its own search.
+struct Entry {
   int frame = 0;
-  int surface = whole_frame;           ///< or one of the above
-  const LaneSurface* lanes = nullptr;  ///< of kind `other` where one ray goes at a time
-  int first = 0;                       ///< of all_bounded: the occupant that the frame's surface 0 is
-  bool in_tree = false;                ///< of a surface: found by the search of all_bounded alone
-  int occluder = -1;  ///< of a surface: its index among the occluders, if it has one of its own
+  int first_number = 0;        ///< the number of its surface 0: they are counted through all frames
+  bool extended = false;       ///< of large γ, whose rays take extended precision: one ray at a time
+  bool casts_shadows = false;  ///< any of its surfaces
+};
+
+/// A surface by its number.
+struct Numbered {
+  int entry;
+  int group;  ///< of the surfaces whose points are lit together: of one frame and material
 };
 
 /// The view of one eye.
 struct EyeView {
   std::vector<LaneFrame> frames;   ///< by frame index
-  std::array<ConeStore, 2> cones;  ///< of occupants; [1]: with light delay
+  std::array<ConeStore, 2> cones;  ///< of entries; [1]: with light delay
 };
 
 /// One light and its occluders.
 struct LampView {
   bool in_lanes = false;  ///< its own frame is one that lanes can do
   std::vector<LaneMotion> to_frame;
-  LampStore bounded;           ///< of occluders
-  std::vector<int> unbounded;  ///< occluders without bounds
+  LampStore bounded;           ///< entries that cast shadows
+  std::vector<int> unbounded;  ///< the same without bounds
 };
 
 class SheetScene {
@@ -69,27 +70,32 @@ class SheetScene {
   SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& kernels);
 
   [[nodiscard]] const SheetKernels& kernels() const { return *kernels_; }
-  [[nodiscard]] const std::vector<Occupant>& occupants() const { return occupants_; }
-  [[nodiscard]] const std::vector<Occupant>& occluders() const { return occluders_; }
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  [[nodiscard]] const Entry& entry(int index) const { return entries_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] const Numbered& numbered(int number) const {
+    return numbered_[static_cast<std::size_t>(number)];
+  }
+  [[nodiscard]] std::size_t group_count() const { return group_count_; }
+  [[nodiscard]] const SurfaceSet& surfaces(const Entry& entry) const {
+    return *hub_->frames[static_cast<std::size_t>(entry.frame)].scene->surfaces;
+  }
   [[nodiscard]] const EyeView& eye(int eye) const { return eyes_[eye > 0 ? 1 : 0]; }
   [[nodiscard]] const LampView& lamp(std::size_t light) const { return lamps_[light]; }
-  /// Frames of large γ, whose rays take extended precision: one ray at a time.
-  [[nodiscard]] bool one_by_one(int frame) const { return one_by_one_[static_cast<std::size_t>(frame)]; }
   /// Whether all lights of points of this frame can be done in lanes.
   [[nodiscard]] bool lit_in_lanes(int frame) const { return lit_in_lanes_[static_cast<std::size_t>(frame)]; }
 
  private:
-  void list_occupants(const Hub& hub);
-  EyeView view_of(const Scene& scene, const Hub& hub, int eye) const;
-  LampView view_of(const Scene& scene, const Hub& hub, std::size_t light) const;
+  void list_entries(const Scene& scene);
+  [[nodiscard]] EyeView view_of(const Scene& scene, int eye) const;
+  [[nodiscard]] LampView view_of(const Scene& scene, std::size_t light) const;
 
   const SheetKernels* kernels_;
-  std::vector<LaneSurface> lanes_;
-  std::vector<Occupant> occupants_;
-  std::vector<Occupant> occluders_;
+  const Hub* hub_;
+  std::vector<Entry> entries_;
+  std::vector<Numbered> numbered_;
+  std::size_t group_count_ = 0;
   std::vector<EyeView> eyes_;
   std::vector<LampView> lamps_;
-  std::vector<bool> one_by_one_;
   std::vector<bool> lit_in_lanes_;
 };
 

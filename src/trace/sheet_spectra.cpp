@@ -87,7 +87,7 @@ void SheetShader::light_spectra(const Material& material, int material_index, co
   ShiftedColours colours(context, material_index, work_, scratch_);
   for (int lane = 0; lane < p.count; ++lane) {
     const DopplerFactor<Camera, Rest> doppler{p.doppler[lane]};
-    colours.begin(doppler, p.u[lane], p.v[lane]);
+    colours.begin(doppler, p.points.u[lane], p.points.v[lane]);
     LinearRgb sum = colours.emitted();
     for (std::size_t i = 0; i < lights.size(); ++i) {
       SheetScratch::Lamp& lamp = work_.lamp_light[i];

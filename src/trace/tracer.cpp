@@ -36,9 +36,9 @@ bool any_without_shift(const Scene& scene) {
 
 }  // namespace
 
-Tracer::Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces)
+Tracer::Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces, Search search)
     : scene_(&scene),
-      hub_(make_hub(scene, pieces)),
+      hub_(make_hub(scene, pieces, search)),
       wavelengths_(&wavelength_set(wavelengths > 0 ? wavelengths : default_wavelength_count)),
       spectral_(wavelengths > 0),
       stars_(star_images(scene, hub_, *wavelengths_)) {
@@ -58,6 +58,7 @@ RayLight Tracer::light(const CameraRay& ray, const Effects& effects, Scratch& sc
   // along the past light cone, and the nearest of them: the smallest λ.
   scratch.rays.start(ray);
   ++scratch.counts.primary;
+  ++scratch.counts.single;
   const FirstHit hit = first_hit(hub_, scratch.rays);
   return {colour_of(ray, hit, effects, scratch), hit.found() || scene_->sky.given};
 }

@@ -48,8 +48,8 @@ FirstHit first_hit_in(int frame, const Hub& hub, RayInFrames& rays, double limit
   const RestRayEvents& ray = rays.in(frame);
   const bool apart = view.far && !view.far->unbounded.empty();
   FirstHit first;
-  first.hit = apart ? surfaces.nearest_bounded(ray.origin, ray.direction, limit - ray.start, ray.clock())
-                    : surfaces.nearest(ray.origin, ray.direction, limit - ray.start, ray.clock());
+  first.hit = surfaces.nearest(ray.origin, ray.direction, limit - ray.start, ray.clock(), hub.search,
+                               apart ? Among::bounded : Among::all);
   first.start = ray.start;
   first.lambda = Extended(ray.start) + Extended(first.hit.lambda);
   if (apart) {
@@ -94,7 +94,7 @@ bool passes_by(const BoundingSphere& bounds, const Vec3& start, const Vec3& dire
 // The shadow of a frame with a FarView on a point of another: the segment is brought next to the surfaces
 // that have bounds as rays are.
 bool is_shadowed_far(const FrameView& view, const InertialFrame& lamp, RayInFrames& rays, const FirstHit& hit,
-                     const ShadowSegment& segment) {
+                     const ShadowSegment& segment, Search search) {
   const SurfaceSet& surfaces = *view.scene->surfaces;
   const ExtendedEvent start = far_event(*view.far, rays.ray(), hit.lambda);
   const ExtendedVec3 way{segment.direction.x};
@@ -112,8 +112,8 @@ bool is_shadowed_far(const FrameView& view, const InertialFrame& lamp, RayInFram
   const Extended moved(events.start);
   events.origin = (start.x + moved * k.x).rounded();
   events.time = double(start.t + moved * k.t);
-  return surfaces.blocked_bounded(events.origin, events.direction, 0.0, segment.end - events.start,
-                                  events.clock());
+  return surfaces.blocked(events.origin, events.direction, segment.end - events.start, events.clock(), search,
+                          Among::bounded);
 }
 
 }  // namespace
@@ -123,23 +123,23 @@ bool is_shadowed_in(int frame, const Hub& hub, RayInFrames& rays, const FirstHit
   const FrameView& view = hub.frames[static_cast<std::size_t>(frame)];
   const SurfaceSet& surfaces = *view.scene->surfaces;
   if (frame == hit.frame) {
-    return surfaces.blocked(segment.start_in_surface_frame, segment.direction_in_surface_frame, 0.0,
-                            segment.end, segment.clock_in_surface_frame);
+    return surfaces.blocked(segment.start_in_surface_frame, segment.direction_in_surface_frame, segment.end,
+                            segment.clock_in_surface_frame, hub.search);
   }
   const Event<Rest> start = rays.in(frame).at(hit.lambda);
   const auto& to_frame = light.to_frame[static_cast<std::size_t>(frame)];
   if (!light.retarded_shadows) {
     const Displacement<Rest> now = to_frame(Displacement<Source>{0.0, segment.direction.x});
-    return surfaces.blocked(start.x, now.x, 0.0, segment.end, {start.t, now.t});
+    return surfaces.blocked(start.x, now.x, segment.end, {start.t, now.t}, hub.search);
   }
   const NullDirection<Rest> direction = to_frame(segment.direction);
   if (!view.far) {
-    return surfaces.blocked(start.x, direction.x, 0.0, segment.end, {start.t, -direction.length});
+    return surfaces.blocked(start.x, direction.x, segment.end, {start.t, -direction.length}, hub.search);
   }
   const double doubt = 1e-12 + 1e-14 * (to_frame.gamma() + view.from_camera.gamma());
   if (view.far->unbounded.empty() && passes_by(view.far->bounds, start.x, direction.x, doubt)) return false;
   const InertialFrame& lamp = hub.frames[static_cast<std::size_t>(light.light->frame)].scene->motion;
-  return is_shadowed_far(view, lamp, rays, hit, segment);
+  return is_shadowed_far(view, lamp, rays, hit, segment, hub.search);
 }
 
 bool is_shadowed(const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,

@@ -22,8 +22,8 @@
 namespace backlight {
 
 /// The compiler's own vectors of N numbers. (One by one: gcc 12 drops a vector_size that depends on N; and it
-/// makes wrong code of vectors of one number, so that there are none. A machine without vectors takes two
-/// numbers one after the other.)
+/// makes wrong code of vectors of one number, for which there are plain doubles below. A machine without
+/// vectors takes two numbers one after the other.)
 template <int N>
 struct LaneRegister;
 template <>
@@ -84,6 +84,39 @@ struct Lanes {
   friend BACKLIGHT_LANES Mask operator==(Lanes a, Lanes b) { return {a.v == b.v}; }
 };
 
+/// One lane: a kernel as the law for one ray.
+template <>
+struct LaneMask<1> {
+  bool v;
+
+  friend BACKLIGHT_LANES LaneMask operator&(LaneMask a, LaneMask b) { return {a.v && b.v}; }
+  friend BACKLIGHT_LANES LaneMask operator|(LaneMask a, LaneMask b) { return {a.v || b.v}; }
+  friend BACKLIGHT_LANES LaneMask operator~(LaneMask a) { return {!a.v}; }
+};
+template <>
+struct Lanes<1> {
+  static constexpr int width = 1;
+  using Mask = LaneMask<1>;
+  double v;
+
+  Lanes() = default;
+  BACKLIGHT_LANES Lanes(double number) : v(number) {}  // NOLINT: as of several lanes
+
+  static BACKLIGHT_LANES Lanes load(const double* from) { return *from; }
+  BACKLIGHT_LANES void store(double* to) const { *to = v; }
+
+  friend BACKLIGHT_LANES Lanes operator+(Lanes a, Lanes b) { return a.v + b.v; }
+  friend BACKLIGHT_LANES Lanes operator-(Lanes a, Lanes b) { return a.v - b.v; }
+  friend BACKLIGHT_LANES Lanes operator*(Lanes a, Lanes b) { return a.v * b.v; }
+  friend BACKLIGHT_LANES Lanes operator/(Lanes a, Lanes b) { return a.v / b.v; }
+  friend BACKLIGHT_LANES Lanes operator-(Lanes a) { return -a.v; }
+  friend BACKLIGHT_LANES Mask operator<(Lanes a, Lanes b) { return {a.v < b.v}; }
+  friend BACKLIGHT_LANES Mask operator<=(Lanes a, Lanes b) { return {a.v <= b.v}; }
+  friend BACKLIGHT_LANES Mask operator>(Lanes a, Lanes b) { return {a.v > b.v}; }
+  friend BACKLIGHT_LANES Mask operator>=(Lanes a, Lanes b) { return {a.v >= b.v}; }
+  friend BACKLIGHT_LANES Mask operator==(Lanes a, Lanes b) { return {a.v == b.v}; }
+};
+
 /// Lane by lane: mask ? a : b.
 template <int N>
 BACKLIGHT_LANES Lanes<N> select(LaneMask<N> mask, Lanes<N> a, Lanes<N> b) {
@@ -93,6 +126,7 @@ BACKLIGHT_LANES Lanes<N> select(LaneMask<N> mask, Lanes<N> a, Lanes<N> b) {
 /// Bit i is lane i.
 template <int N>
 BACKLIGHT_LANES unsigned bits(LaneMask<N> mask) {
+  if constexpr (N == 1) return mask.v ? 1U : 0U;
 #if defined(__AVX512DQ__)
   if constexpr (N == 8) return static_cast<unsigned>(_mm512_movepi64_mask((__m512i)mask.v));
 #endif
@@ -103,7 +137,9 @@ BACKLIGHT_LANES unsigned bits(LaneMask<N> mask) {
   if constexpr (N == 2) return static_cast<unsigned>(_mm_movemask_pd((__m128d)mask.v));
 #endif
   unsigned all = 0;
-  for (int i = 0; i < N; ++i) all |= (mask.v[i] != 0 ? 1U : 0U) << i;
+  if constexpr (N > 1) {
+    for (int i = 0; i < N; ++i) all |= (mask.v[i] != 0 ? 1U : 0U) << i;
+  }
   return all;
 }
 
@@ -123,13 +159,17 @@ BACKLIGHT_LANES void store_kept(Lanes<N> a, unsigned keep, double* to) {
 /// The opposite of bits().
 template <int N>
 BACKLIGHT_LANES LaneMask<N> mask_of_bits(unsigned all) {
+  if constexpr (N == 1) return {(all & 1U) != 0};
   LaneMask<N> mask;
-  for (int i = 0; i < N; ++i) mask.v[i] = -static_cast<long long>((all >> i) & 1U);
+  if constexpr (N > 1) {
+    for (int i = 0; i < N; ++i) mask.v[i] = -static_cast<long long>((all >> i) & 1U);
+  }
   return mask;
 }
 
 template <int N>
 BACKLIGHT_LANES Lanes<N> sqrt(Lanes<N> a) {
+  if constexpr (N == 1) return __builtin_sqrt(a.v);
 #if defined(__AVX512F__)
   if constexpr (N == 8) return (typename Lanes<N>::Vec)_mm512_sqrt_pd((__m512d)a.v);
 #endif
@@ -142,7 +182,9 @@ BACKLIGHT_LANES Lanes<N> sqrt(Lanes<N> a) {
   if constexpr (N == 2) return (typename Lanes<N>::Vec)vsqrtq_f64((float64x2_t)a.v);
 #endif
   Lanes<N> root;
-  for (int i = 0; i < N; ++i) root.v[i] = __builtin_sqrt(a.v[i]);
+  if constexpr (N > 1) {
+    for (int i = 0; i < N; ++i) root.v[i] = __builtin_sqrt(a.v[i]);
+  }
   return root;
 }
 
@@ -238,6 +280,12 @@ struct LaneMatrix {
     return {V(column[0][0]) * a.x + V(column[1][0]) * a.y + V(column[2][0]) * a.z,
             V(column[0][1]) * a.x + V(column[1][1]) * a.y + V(column[2][1]) * a.z,
             V(column[0][2]) * a.x + V(column[1][2]) * a.y + V(column[2][2]) * a.z};
+  }
+  template <class V>
+  BACKLIGHT_LANES LaneVec3<V> transposed_times(LaneVec3<V> a) const {
+    return {V(column[0][0]) * a.x + V(column[0][1]) * a.y + V(column[0][2]) * a.z,
+            V(column[1][0]) * a.x + V(column[1][1]) * a.y + V(column[1][2]) * a.z,
+            V(column[2][0]) * a.x + V(column[2][1]) * a.y + V(column[2][2]) * a.z};
   }
 };
 

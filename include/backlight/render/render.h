@@ -56,7 +56,6 @@ struct SampleCounts {
 struct RenderStatistics {
   RayCounts rays;
   SampleCounts samples;
-  TraceStrategy strategy;
   double seconds = 0.0;         ///< wall time from its first tile's begin to its last tile's end
   double thread_seconds = 0.0;  ///< time that threads spent in its tiles
   int threads = 1;

@@ -4,20 +4,20 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "backlight/base/vector.h"
-#include "backlight/surface/lane_surface.h"
 #include "backlight/surface/placement.h"
 #include "backlight/surface/ray_clock.h"
+#include "backlight/surface/ray_sheet.h"
 #include "backlight/surface/shape.h"
 
 namespace backlight {
 
-class BoundingTree;
+struct AxisBox;
 struct PlacedSurface;
-struct RestRay;
+struct WalkSurfaces;
+struct WideNode;
 
 /// Where a ray first meets the set. `surface` < 0: nowhere.
 struct Hit {
@@ -51,18 +51,23 @@ struct BoundingSphere {
   double radius = -1.0;
 };
 
-/// How a set looks for the nearest surface; the answers are the same bit for bit.
-enum class SearchMethod { automatic, list, tree };
+/// How the surfaces are looked through for a single ray; the answers are the same bit for bit.
+enum class Search {
+  tree,          ///< by the tree of boxes that sheets go down
+  every_surface  ///< each is asked: the law, which knows of no bounds
+};
+
+/// Of which surfaces a question is.
+enum class Among { all, bounded };
 
 /// The surfaces at rest in one frame. A ray is x(λ) = origin + λ direction, all in this frame's coordinates.
 /// `direction` has any length (the ray parameter λ is shared by all frames, docs/physics.md section 2), and
 /// the origin may be 10⁹ object sizes away: each surface solves its own problem about the ray's closest
-/// approach to its centre, found without rounding error (src/surface/local_line.h).
+/// approach to its centre, found without rounding error (src/surface/lane_surface.h).
 ///
 /// `clock` tells the frame's time along the ray, which shapes whose formula depends on t ask for.
 ///
-/// Fill with add(), then build() once; the queries are const, allocate nothing and may run in any number of
-/// threads.
+/// Fill with add(), then build() once; the queries are const, and may run in any number of threads.
 class SurfaceSet {
  public:
   SurfaceSet();
@@ -70,12 +75,15 @@ class SurfaceSet {
   SurfaceSet& operator=(SurfaceSet&&) noexcept;
   ~SurfaceSet();
 
+  /// Room for so many surfaces.
+  void reserve(std::size_t count);
+
   /// Takes a surface for which problem() is empty; returns its index: 0, 1, 2... One that casts no shadow is
   /// seen, and in nothing's way: blocked() passes it over.
   int add(const Shape& shape, const Placement& placement, bool casts_shadow = true);
 
   /// Lays the surfaces out for the search. To be called after the last add() and before any question.
-  void build(SearchMethod method = SearchMethod::automatic);
+  void build();
 
   [[nodiscard]] std::size_t size() const;
 
@@ -85,23 +93,30 @@ class SurfaceSet {
   /// Whether a surface casts a shadow, as add() was told.
   [[nodiscard]] bool casts_shadow(int surface) const;
 
+  /// Whether a ray that leaves the surface on its outside (SurfacePoint) never meets it again...
+  [[nodiscard]] bool is_convex(int surface) const;
+  /// ...and on its inside neither.
+  [[nodiscard]] bool is_flat(int surface) const;
+
+  /// The radius of the ball about the centre of bounds() that is opaque all through; 0: there is none.
+  [[nodiscard]] double opaque_radius(int surface) const;
+
+  // One ray.
+
   /// The smallest λ in (0, lambda_limit) at which the ray meets a surface; of equal λ, the smallest index.
   [[nodiscard]] Hit nearest(const Vec3& origin, const Vec3& direction,
                             double lambda_limit = std::numeric_limits<double>::infinity(),
-                            const RayClock& clock = {}) const;
+                            const RayClock& clock = {}, Search search = Search::tree,
+                            Among among = Among::all) const;
 
-  /// nearest() of the surfaces that have bounds.
-  [[nodiscard]] Hit nearest_bounded(const Vec3& origin, const Vec3& direction, double lambda_limit,
-                                    const RayClock& clock) const;
+  /// Whether the ray meets any surface that casts a shadow, at a λ in the open interval (0, lambda_max).
+  [[nodiscard]] bool blocked(const Vec3& origin, const Vec3& direction, double lambda_max,
+                             const RayClock& clock = {}, Search search = Search::tree,
+                             Among among = Among::all) const;
 
-  /// Whether the ray meets any surface that casts a shadow, at a λ in the open interval (lambda_min,
-  /// lambda_max), lambda_min >= 0.
-  [[nodiscard]] bool blocked(const Vec3& origin, const Vec3& direction, double lambda_min, double lambda_max,
-                             const RayClock& clock = {}) const;
-
-  /// blocked() by the surfaces that have bounds.
-  [[nodiscard]] bool blocked_bounded(const Vec3& origin, const Vec3& direction, double lambda_min,
-                                     double lambda_max, const RayClock& clock) const;
+  /// nearest() of one surface alone: the first crossing at λ > 0, or nowhere.
+  [[nodiscard]] Hit first_crossing_of(int surface, const Vec3& origin, const Vec3& direction,
+                                      const RayClock& clock = {}) const;
 
   /// The point of a hit that nearest() found for this very ray. The position is not origin + λ direction,
   /// which from afar would carry the rounding of λ, but the crossing found again near the surface, and put
@@ -109,60 +124,38 @@ class SurfaceSet {
   [[nodiscard]] SurfacePoint resolve(const Hit& hit, const Vec3& origin, const Vec3& direction,
                                      const RayClock& clock = {}) const;
 
-  /// nearest() of one surface alone: the first crossing at λ > 0, or nowhere.
-  [[nodiscard]] Hit first_crossing_of(int surface, const Vec3& origin, const Vec3& direction,
-                                      const RayClock& clock = {}) const;
+  // Many rays at once, each with the same answer as by itself: those whose bits are set in `rays`.
 
-  /// The same for many rays at once: array i of `origin` and of `direction` holds their coordinates i.
-  struct Rays {
-    std::size_t count;
-    const double* origin[3];
-    const double* direction[3];
-    const double* time;
-    const double* rate;
-  };
-  void first_crossings_of(int surface, const Rays& rays, std::span<Hit> hits) const;
+  /// Updates the hits where a surface is met at a smaller λ > 0, or at the same and its number is smaller:
+  /// surface i has number first_number + i.
+  void nearest(const RaySheet& sheet, std::uint64_t rays, double first_number, SheetHits& hits) const;
 
-  /// Whether one surface, which casts a shadow, is met by each of many rays at a λ in the open interval
-  /// (0, lambda_max): blocked() of that surface.
-  void blocked_by(int surface, const Rays& rays, double lambda_max, std::span<bool> blocked) const;
+  /// Which of the rays are blocked at a λ in (0, lambda_max). `own` by ray: the number of a surface that is
+  /// known not to be in the way; numbers as above.
+  [[nodiscard]] std::uint64_t blocked(const RaySheet& sheet, std::uint64_t rays, double lambda_max,
+                                      double first_number = 0.0,
+                                      const double (*own)[sheet_size] = nullptr) const;
 
-  /// resolve() of the hits of one surface, one for each ray: array i of `rays` as above. u and v are 0 if
-  /// they are not wanted.
-  void resolve_all(std::span<const Hit> hits, const Rays& rays, bool with_texture_coordinates,
-                   std::span<SurfacePoint> points) const;
-
-  /// How many surfaces have bounds and a closed form that the lanes do not have: each is asked one ray at a
-  /// time, whatever else is asked together.
-  [[nodiscard]] std::size_t asked_one_by_one() const;
-
-  /// A surface as the lanes have it: of kind `other` where only one ray at a time can be asked.
-  [[nodiscard]] LaneSurface lane_surface(int surface) const;
+  /// The points of the hits of rays `first` to `last`, all on one surface. u and v are not set if they are
+  /// not wanted.
+  void points(const RaySheet& sheet, int surface, int first, int last, const SheetHits& hits,
+              bool with_texture_coordinates, SheetPoints& points) const;
 
   [[nodiscard]] BoundingSphere bounds(int surface) const;
-  [[nodiscard]] BoundingSphere bounds() const;             ///< of the whole set
-  [[nodiscard]] BoundingSphere bounds_of_bounded() const;  ///< of those surfaces that have bounds
+  [[nodiscard]] BoundingSphere bounds() const;  ///< of the whole set
+  /// Of those surfaces that have bounds.
+  [[nodiscard]] const BoundingSphere& bounds_of_bounded() const { return bounds_of_bounded_; }
 
  private:
-  template <bool any>
-  Hit search(const RestRay& ray, double lambda_min, double lambda_max,
-             const std::vector<int>& unbounded) const;
-  template <bool any>
-  bool search_range(const RestRay& ray, double lambda_min, std::size_t first, std::size_t last,
-                    Hit& best) const;
-  template <bool any>
-  void search_tree(const RestRay& ray, double lambda_min, Hit& best) const;
-  static bool is_blocked_by(const PlacedSurface& surface, const RestRay& ray, double lambda_min,
-                            double lambda_max);
-  [[nodiscard]] bool may_meet(const RestRay& ray, double lambda_min, double lambda_max,
-                              std::size_t slot) const;
+  [[nodiscard]] WalkSurfaces walk_surfaces(Among among, double first_number) const;
+  [[nodiscard]] const PlacedSurface& at(int surface) const;
+  [[nodiscard]] BoundingSphere around(const std::vector<AxisBox>& boxes, const std::vector<int>& bounded) const;
 
-  std::vector<PlacedSurface> surfaces_;  // by index
-  std::vector<int> infinite_;            // indices of those without bounds
-  // The bounded ones, in search order: their bounding spheres as arrays, for a loop that needs nothing else.
-  std::vector<int> index_;
-  std::vector<double> centre_x_, centre_y_, centre_z_, radius_;
-  std::unique_ptr<BoundingTree> tree_;  // over the search order; null: try them all
+  std::vector<PlacedSurface> surfaces_;
+  std::vector<WideNode> nodes_;  ///< over those that have bounds, but for a lone one
+  std::vector<int> direct_;      ///< the others: first `unbounded_` without bounds, then a lone one
+  std::size_t unbounded_ = 0;
+  BoundingSphere bounds_of_bounded_;
 };
 
 }  // namespace backlight

@@ -54,10 +54,11 @@ struct Hub {
   std::vector<FrameView> frames;                   ///< by frame index; [0] is the world
   std::vector<LightView> lights;                   ///< by light index
   std::vector<int> occupied;                       ///< indices of frames with surfaces, ascending
+  Search search = Search::tree;                    ///< how single rays look through surfaces
   LorentzTransform<Camera, Rest> camera_from_sky;  ///< for what shines forward from infinity: the stars
 };
 
 /// Composes the hub in extended precision.
-Hub make_hub(const Scene& scene, const ModelPieces& pieces = {});
+Hub make_hub(const Scene& scene, const ModelPieces& pieces = {}, Search search = Search::tree);
 
 }  // namespace backlight

@@ -12,6 +12,7 @@ namespace backlight {
 /// What was done for one image, for the statistics. Summed over threads at the end.
 struct RayCounts {
   std::uint64_t primary = 0;     ///< camera rays
+  std::uint64_t single = 0;      ///< of those, which did not go in sheets: one at a time
   std::uint64_t shadow = 0;      ///< segments to lamps that were tested
   std::uint64_t data = 0;        ///< pixel-centre rays for the data channels alone
   std::uint64_t non_finite = 0;  ///< pixels with a NaN or an infinity
@@ -21,6 +22,7 @@ struct RayCounts {
 
   RayCounts& operator+=(const RayCounts& more) {
     primary += more.primary;
+    single += more.single;
     shadow += more.shadow;
     data += more.data;
     non_finite += more.non_finite;

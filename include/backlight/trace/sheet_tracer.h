@@ -60,9 +60,6 @@ class SheetTracer {
   void trace(std::span<const ImagePoint> points, int eye, SheetScratch& sheets, Scratch& scratch,
              TileLight& light) const;
 
-  /// How the rays of this image are spared most of its surfaces.
-  [[nodiscard]] TraceStrategy strategy() const;
-
   /// The instruction set in use, by name.
   [[nodiscard]] const char* instructions() const;
 
@@ -71,6 +68,7 @@ class SheetTracer {
                     TileLight& light) const;
 
   const Tracer* tracer_;
+  InstructionSet instructions_;
   std::unique_ptr<const SheetScene> scene_;
 };
 

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "backlight/trace/sky.h"
-#include "backlight/trace/trace_strategy.h"
 
 namespace backlight {
 
@@ -36,7 +35,7 @@ class Tracer {
  public:
   /// `wavelengths`: size of the spectral quadrature, or 0 when no colour is shifted anywhere in the image.
   /// The scene must outlive the tracer.
-  Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces = {});
+  Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces = {}, Search search = Search::tree);
 
   [[nodiscard]] Scratch make_scratch(InstructionSet set = InstructionSet::widest) const;
 
@@ -62,9 +61,6 @@ class Tracer {
 
   /// The stars of pixel (x, y) of the full image that no object hides from this eye.
   LinearRgb stars(int x, int y, int eye, Scratch& scratch) const;
-
-  /// How this one-ray-at-a-time way finds what a ray meets.
-  [[nodiscard]] TraceStrategy strategy() const;
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Hub& hub() const { return hub_; }

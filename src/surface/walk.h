@@ -1,0 +1,490 @@
+// Which of a frame's surfaces up to 64 rays meet first, or whether they meet any: a template over the number
+// of lanes, the same bits for any.
+//
+// The rays go down the tree of boxes (hierarchy.h) together, as a pyramid around all of them: which children
+// that meets is asked of eight boxes at once. At a surface each register of rays is asked whether it may meet
+// the bounding sphere, and then solves the closed form. Formulas, solids and tori are asked about all those
+// rays by functions from outside, which have lanes of their own.
+// Longer than 400 lines: one walk, with what it does at the leaves.
+#pragma once
+
+#include <type_traits>
+
+#include "backlight/surface/ray_sheet.h"
+#include "closed_forms.h"
+#include "hierarchy.h"
+
+namespace backlight {
+
+/// What a walk is given besides the rays.
+struct WalkSurfaces {
+  const WideNode* nodes;  ///< null: there is no tree
+  const PlacedSurface* surfaces;
+  const int* direct;  ///< surfaces that are asked whatever the rays: those without bounds, and a lone one
+  int direct_count;
+  double first_who;  ///< number of surface 0 among the hits
+  // For surfaces without a closed form: as below for one surface, of the rays whose bits are set.
+  const void* set;
+  bool (*nearest_of)(const void* set, int surface, std::uint64_t rays, const RaySheet&, double who, SheetHits&);
+  std::uint64_t (*blocked_by)(const void* set, int surface, std::uint64_t rays, const RaySheet&,
+                              double lambda_max);
+};
+
+/// What is asked about shadow rays.
+struct ShadowQuestion {
+  double lambda_max;
+  /// By ray: the number of its own surface, which surely does not shade it; or -1.
+  const double* own;
+};
+
+template <int N>
+class Walk {
+ public:
+  using V = Lanes<N>;
+  using V3 = LaneVec3<V>;
+  using Mask = LaneMask<N>;
+
+  /// Updates the hits of the rays whose bits are set where a surface is nearer; of equal λ, the smaller number
+  /// counts.
+  static void nearest(const WalkSurfaces& s, const RaySheet& rays, std::uint64_t active, SheetHits& hits) {
+    for (int i = 0; i < s.direct_count; ++i) nearest_of(s, s.direct[i], rays, active, hits);
+    if (s.nodes != nullptr) descend(s, rays, active, hits);
+  }
+
+  /// Of the rays whose bits are set, those that meet a surface that casts a shadow at a λ in (0, lambda_max).
+  static std::uint64_t blocked(const WalkSurfaces& s, const RaySheet& rays, std::uint64_t active,
+                               const ShadowQuestion& question) {
+    std::uint64_t open = active;
+    for (int i = 0; i < s.direct_count && open != 0; ++i) {
+      open &= ~blocked_by(s, s.direct[i], rays, open, question);
+    }
+    if (s.nodes != nullptr && open != 0) open &= ~descend(s, rays, open, question);
+    return active & ~open;
+  }
+
+  /// The points of hits `first` to `last`, all on one surface that has a form; `local`: the same in its local
+  /// coordinates. Bits: those that are left to the law.
+  static std::uint64_t points(const LaneSurface& surface, const RaySheet& rays, int first, int last,
+                              const SheetHits& hits, SheetPoints& out, double (&local)[3][sheet_size]) {
+    std::uint64_t left = 0;
+    const auto use = [&](auto form) __attribute__((always_inline)) {
+      left = points_by<decltype(form)>(surface, rays, first, last, hits, out, local);
+    };
+    if (!with_form(surface.kind, use)) use(TorusForm{});
+    return left;
+  }
+
+ private:
+  static constexpr unsigned all_lanes = (1U << N) - 1U;
+  static constexpr double infinity = __builtin_inf();
+
+  static BACKLIGHT_LANES unsigned lanes_of(std::uint64_t rays, int i) {
+    return static_cast<unsigned>(rays >> i) & all_lanes;
+  }
+
+  /// `a` where the bits are set, `b` elsewhere.
+  static BACKLIGHT_LANES V pick(unsigned lanes, V a, V b) {
+    return lanes == all_lanes ? a : select(mask_of_bits<N>(lanes), a, b);
+  }
+
+  static BACKLIGHT_LANES V3 origin_of(const RaySheet& rays, int i) {
+    if (rays.one_origin) return {V(rays.origin[0][0]), V(rays.origin[1][0]), V(rays.origin[2][0])};
+    return load3<V>(rays.origin, i);
+  }
+
+  static double least_of(V a) {
+    double least = lane(a, 0);
+    for (int i = 1; i < N; ++i) least = lane(a, i) < least ? lane(a, i) : least;
+    return least;
+  }
+  static double most_of(V a) { return -least_of(-a); }
+  static BACKLIGHT_LANES double lane(V a, int i) {
+    if constexpr (N == 1) return a.v;
+    else return a.v[i];
+  }
+
+  /// The pyramid around some rays: from a box of origins, along one axis of the frame, between two slopes
+  /// along either of the others.
+  class Pyramid {
+   public:
+    /// False: they do not all go the same way along the axis that most of them go along. `lambda`: how far
+    /// each goes, from its origin or, for `from_ends`, back from its end to it; null: as far as `lambda_max`.
+    bool make(const RaySheet& rays, std::uint64_t active, const double* lambda, double lambda_max,
+              bool from_ends) {
+      V3 sum{V(0.0), V(0.0), V(0.0)}, least{V(infinity), V(infinity), V(infinity)}, most = -least;
+      for (int i = 0; i < rays.padded; i += N) {
+        const unsigned lanes = lanes_of(active, i);
+        if (lanes == 0) continue;
+        const V3 d = load3<V>(rays.direction, i);
+        V3 o = origin_of(rays, i);
+        if (from_ends) o = o + V(lambda_max) * d;
+        include(lanes, d.x, o.x, sum.x, least.x, most.x);
+        include(lanes, d.y, o.y, sum.y, least.y, most.y);
+        include(lanes, d.z, o.z, sum.z, least.z, most.z);
+      }
+      set_origin(0, least_of(least.x), most_of(most.x), total(sum.x));
+      set_origin(1, least_of(least.y), most_of(most.y), total(sum.y));
+      set_origin(2, least_of(least.z), most_of(most.z), total(sum.z));
+      const int ab = size_[0] >= size_[1] ? 0 : 1;
+      axis_[0] = size_[ab] >= size_[2] ? ab : 2;
+      axis_[1] = axis_[0] == 0 ? 1 : 0;
+      axis_[2] = axis_[0] == 2 ? 1 : 2;
+      if (from_ends) {
+        for (int k = 0; k < 3; ++k) sign_[k] = -sign_[k];
+      }
+      return set_slopes(rays, active, lambda, lambda_max, from_ends ? -1.0 : 1.0);
+    }
+
+    /// Of how large a box the rays come.
+    [[nodiscard]] double spread() const {
+      return (high_[0] - low_[0]) + (high_[1] - low_[1]) + (high_[2] - low_[2]);
+    }
+
+    /// How far along the axis it reaches.
+    double far = infinity;
+
+    /// The same once the rays have met something.
+    void shorten(const RaySheet& rays, std::uint64_t active, const double* lambda) {
+      const V sign(sign_[axis_[0]]);
+      V most(0.0);
+      for (int i = 0; i < rays.padded; i += N) {
+        const unsigned lanes = lanes_of(active, i);
+        if (lanes == 0) continue;
+        most = larger(most, pick(lanes, V::load(lambda + i) * (sign * V::load(rays.direction[axis_[0]] + i)), most));
+      }
+      far = most_of(most) * (1.0 + 1e-14) + reach_room_;
+    }
+
+    /// Bits: the children it meets; `near`: how far along the axis they begin.
+    unsigned meets(const WideNode& node, double (&near)[WideNode::width]) const {
+      unsigned all = 0;
+      const int a = axis_[0], b = axis_[1], c = axis_[2];
+      const bool forwards = sign_[a] > 0.0;
+      for (int k = 0; k < WideNode::width; k += N) {
+        const V lo = V::load(node.lo[a] + k), hi = V::load(node.hi[a] + k);
+        const V begin = forwards ? lo - V(high_[a]) : V(low_[a]) - hi;
+        const V end = forwards ? hi - V(low_[a]) : V(high_[a]) - lo;
+        const V from = larger(begin, V(0.0));
+        const Mask met = (end >= V(0.0)) & (begin <= V(far)) & between(node, b, slope_[0], from, end, k) &
+                         between(node, c, slope_[1], from, end, k);
+        begin.store(near + k);
+        all |= bits(met) << k;
+      }
+      return all;
+    }
+
+   private:
+    static BACKLIGHT_LANES void include(unsigned lanes, V d, V o, V& sum, V& least, V& most) {
+      sum = sum + pick(lanes, d, V(0.0));
+      least = smaller(least, pick(lanes, o, least));
+      most = larger(most, pick(lanes, o, most));
+    }
+    static double total(V a) {
+      double sum = 0.0;
+      for (int i = 0; i < N; ++i) sum += lane(a, i);
+      return sum;
+    }
+
+    // With room for the rounding of differences from it.
+    void set_origin(int k, double low, double high, double sum) {
+      const double size = (low < 0.0 ? -low : low) + (high < 0.0 ? -high : high);
+      low_[k] = low - 2e-15 * size;
+      high_[k] = high + 2e-15 * size;
+      size_[k] = sum < 0.0 ? -sum : sum;
+      sign_[k] = sum < 0.0 ? -1.0 : 1.0;
+    }
+
+    bool set_slopes(const RaySheet& rays, std::uint64_t active, const double* lambda, double lambda_max,
+                    double way) {
+      const V sign(sign_[axis_[0]] * way);
+      V low[2] = {V(infinity), V(infinity)}, high[2] = {V(-infinity), V(-infinity)}, most(0.0);
+      for (int i = 0; i < rays.padded; i += N) {
+        const unsigned lanes = lanes_of(active, i);
+        if (lanes == 0) continue;
+        const V along = sign * V::load(rays.direction[axis_[0]] + i);
+        if ((bits(along > V(0.0)) & lanes) != lanes) return false;
+        const V limit = lambda == nullptr ? V(lambda_max) : V::load(lambda + i);
+        most = larger(most, pick(lanes, limit * along, most));
+        const V inverse = V(way) / along;
+        for (int k = 0; k < 2; ++k) {
+          const V slope = V::load(rays.direction[axis_[k + 1]] + i) * inverse;
+          low[k] = smaller(low[k], pick(lanes, slope, low[k]));
+          high[k] = larger(high[k], pick(lanes, slope, high[k]));
+        }
+      }
+      reach_room_ = spread();
+      far = most_of(most) * (1.0 + 1e-14) + reach_room_;
+      for (int k = 0; k < 2; ++k) {
+        const double least = least_of(low[k]), greatest = most_of(high[k]);
+        slope_[k][0] = least - 2e-15 * (1.0 + (least < 0.0 ? -least : least));
+        slope_[k][1] = greatest + 2e-15 * (1.0 + (greatest < 0.0 ? -greatest : greatest));
+      }
+      return true;
+    }
+
+    // Whether boxes reach between the slopes somewhere from `from` to `end` along the axis.
+    BACKLIGHT_LANES Mask between(const WideNode& node, int axis, const double (&slope)[2], V from, V end,
+                                 int k) const {
+      const V lo = V::load(node.lo[axis] + k) - V(high_[axis]), hi = V::load(node.hi[axis] + k) - V(low_[axis]);
+      const V lowest = V(slope[0]) * (slope[0] >= 0.0 ? from : end);
+      const V highest = V(slope[1]) * (slope[1] >= 0.0 ? end : from);
+      return (hi >= lowest) & (lo <= highest);
+    }
+
+    int axis_[3];  // the one that the rays go along, and the others
+    double sign_[3], size_[3];
+    double low_[3], high_[3];  // of the origins
+    double slope_[2][2];
+    double reach_room_;
+  };
+
+  /// Which rays of a register may meet a surface's bounding sphere: with room for all rounding.
+  class Sight {
+   public:
+    BACKLIGHT_LANES Sight(const LaneSurface& surface, const RaySheet& rays, double lambda_max)
+        : surface_(surface), lambda_max_(lambda_max), one_(rays.one_origin), all_(!(surface.radius < infinity)) {
+      if (!one_ || all_) return;
+      double square = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        to_[k] = surface.centre[k] - rays.origin[k][0];
+        square += to_[k] * to_[k];
+      }
+      const double left = square - surface.radius * surface.radius * (1.0 + 1e-11);
+      all_ = !(left > 0.0);
+      level_ = __builtin_sqrt(all_ ? 0.0 : left) - 1e-11 * __builtin_sqrt(square);
+    }
+
+    [[nodiscard]] BACKLIGHT_LANES unsigned lanes(const RaySheet& rays, int i) const {
+      if (all_) return all_lanes;
+      const V3 d = load3<V>(rays.direction, i);
+      const V size = V::load(rays.length + i);
+      if (one_) return bits(dot(d, V3(to_)) >= V(level_) * size);
+      // The closest approach to the centre, without a division.
+      const V3 o = load3<V>(rays.origin, i) - V3(surface_.centre);
+      const V square = dot(o, o), along = dot(o, d), square_length = dot(d, d);
+      const V reach = (V(surface_.radius) + V(4e-15) * largest_coordinate(o)) * size * V(1.0 + 1e-11);
+      return bits((square * square_length - along * along <= reach * reach + V(1e-14) * square * square_length) &
+                  (along <= reach) & (-along <= V(lambda_max_) * square_length + reach));
+    }
+
+    /// Of the given ones.
+    [[nodiscard]] std::uint64_t rays(const RaySheet& sheet, std::uint64_t active) const {
+      std::uint64_t met = 0;
+      for (int i = 0; i < sheet.padded; i += N) {
+        const unsigned open = lanes_of(active, i);
+        if (open != 0) met |= static_cast<std::uint64_t>(open & lanes(sheet, i)) << i;
+      }
+      return met;
+    }
+
+   private:
+    const LaneSurface& surface_;
+    double lambda_max_;
+    bool one_, all_;
+    double to_[3];  // of one origin: the centre from there
+    double level_;
+  };
+
+  /// Calls work(child, near) for the surfaces that the pyramid meets, near ones first; it returns true to stop.
+  template <class Work>
+  static BACKLIGHT_LANES void visit(const WideNode* nodes, const Pyramid& pyramid, const Work& work) {
+    struct Pending {
+      double near;
+      std::int32_t child;
+    };
+    Pending stack[768];  // of 96 levels
+    int pending = 0;
+    std::int32_t current = 0;
+    while (true) {
+      if (current >= 0) {
+        const WideNode& node = nodes[current];
+        double near[WideNode::width];
+        const int bottom = pending;
+        for (unsigned met = pyramid.meets(node, near); met != 0; met &= met - 1) {
+          const int i = __builtin_ctz(met);
+          int place = pending++;
+          for (; place > bottom && stack[place - 1].near < near[i]; --place) stack[place] = stack[place - 1];
+          stack[place] = {near[i], node.child[i]};
+        }
+      } else if (work(~current)) {
+        return;
+      }
+      do {
+        if (pending == 0) return;
+        current = stack[--pending].child;
+      } while (stack[pending].near > pyramid.far);
+    }
+  }
+
+  static std::uint64_t half_of(std::uint64_t rays) {
+    std::uint64_t rest = rays;
+    for (int left = __builtin_popcountll(rays) / 2; left > 0; --left) rest &= rest - 1;
+    return rest;
+  }
+
+  static void descend(const WalkSurfaces& s, const RaySheet& rays, std::uint64_t active, SheetHits& hits) {
+    Pyramid pyramid;
+    if (!pyramid.make(rays, active, hits.lambda, infinity, false)) {
+      const std::uint64_t half = half_of(active);
+      if (half == active) return;  // not a number
+      descend(s, rays, active & ~half, hits);
+      descend(s, rays, half, hits);
+      return;
+    }
+    const auto work = [&](int surface) __attribute__((always_inline)) {
+      if (nearest_of(s, surface, rays, active, hits)) pyramid.shorten(rays, active, hits.lambda);
+      return false;
+    };
+    visit(s.nodes, pyramid, work);
+  }
+
+  static std::uint64_t descend(const WalkSurfaces& s, const RaySheet& rays, std::uint64_t active,
+                               const ShadowQuestion& question) {
+    // The light of a lamp comes from a point, or from few: then the pyramid begins there.
+    Pyramid pyramid, from_lamp;
+    bool made = pyramid.make(rays, active, nullptr, question.lambda_max, false);
+    if (question.lambda_max < infinity &&
+        from_lamp.make(rays, active, nullptr, question.lambda_max, true) &&
+        (!made || from_lamp.spread() < pyramid.spread())) {
+      pyramid = from_lamp;
+      made = true;
+    }
+    if (!made) {
+      const std::uint64_t half = half_of(active);
+      if (half == active) return 0;  // not a number
+      return descend(s, rays, active & ~half, question) | descend(s, rays, half, question);
+    }
+    std::uint64_t open = active;
+    const auto work = [&](int surface) __attribute__((always_inline)) {
+      open &= ~blocked_by(s, surface, rays, open, question);
+      return open == 0;
+    };
+    visit(s.nodes, pyramid, work);
+    return active & ~open;
+  }
+
+  static bool nearest_of(const WalkSurfaces& s, int index, const RaySheet& rays, std::uint64_t active,
+                         SheetHits& hits) {
+    const LaneSurface& surface = s.surfaces[index].lanes;
+    const double who = s.first_who + index;
+    bool nearer = false;
+    const auto use = [&](auto form) __attribute__((always_inline)) {
+      nearer = nearest_by<decltype(form)>(surface, who, rays, active, hits);
+    };
+    if (with_form(surface.kind, use)) return nearer;
+    const std::uint64_t near = Sight(surface, rays, infinity).rays(rays, active);
+    return near != 0 && s.nearest_of(s.set, index, near, rays, who, hits);
+  }
+
+  template <class Form>
+  static constexpr bool is_plane = std::is_same_v<Form, FlatForm<false>>;
+
+  struct First {
+    V lambda, along, part;
+  };
+
+  /// The first crossing at λ > 0; else a λ that is not.
+  template <class Form>
+  static BACKLIGHT_LANES First first_crossing(const LaneSurface& surface, const LaneRay<V>& ray) {
+    if constexpr (is_plane<Form>) {
+      return {plane_lambda(surface, ray), V(__builtin_nan("")), V(0.0)};
+    } else {
+      const LaneLine<V> line = lane_line(surface, ray);
+      const LaneCrossings<V> found = Form::crossings(surface.values, line);
+      const V one = line.lambda(found.t[0]), other = line.lambda(found.t[1]);
+      const Mask first = one > V(0.0);
+      return {select(first, one, other), select(first, found.t[0], found.t[1]),
+              select(first, found.part[0], found.part[1])};
+    }
+  }
+
+  template <class Form>
+  static BACKLIGHT_LANES bool nearest_by(const LaneSurface& surface, double who, const RaySheet& rays,
+                                         std::uint64_t active, SheetHits& hits) {
+    const Sight sight(surface, rays, infinity);
+    bool any = false;
+    for (int i = 0; i < rays.padded; i += N) {
+      const unsigned open = lanes_of(active, i);
+      if (open == 0 || (open & sight.lanes(rays, i)) == 0) continue;
+      const First first = first_crossing<Form>(surface, {origin_of(rays, i), load3<V>(rays.direction, i)});
+      const V before = V::load(hits.lambda + i), whose = V::load(hits.who + i);
+      const Mask nearer = (first.lambda > V(0.0)) &
+                          ((first.lambda < before) | ((first.lambda == before) & (V(who) < whose)));
+      if (bits(nearer) == 0) continue;
+      any = true;
+      select(nearer, first.lambda, before).store(hits.lambda + i);
+      select(nearer, V(who), whose).store(hits.who + i);
+      select(nearer, first.along, V::load(hits.along + i)).store(hits.along + i);
+      select(nearer, first.part, V::load(hits.part + i)).store(hits.part + i);
+    }
+    return any;
+  }
+
+  static std::uint64_t blocked_by(const WalkSurfaces& s, int index, const RaySheet& rays, std::uint64_t active,
+                                  const ShadowQuestion& question) {
+    const LaneSurface& surface = s.surfaces[index].lanes;
+    if (!surface.casts_shadow) return 0;
+    const double who = s.first_who + index;
+    std::uint64_t blocked = 0;
+    const auto use = [&](auto form) __attribute__((always_inline)) {
+      blocked = blocked_by_form<decltype(form)>(surface, who, rays, active, question);
+    };
+    if (with_form(surface.kind, use)) return blocked;
+    const std::uint64_t near = Sight(surface, rays, question.lambda_max).rays(rays, active);
+    return near != 0 ? s.blocked_by(s.set, index, near, rays, question.lambda_max) : 0;
+  }
+
+  template <class Form>
+  static BACKLIGHT_LANES std::uint64_t blocked_by_form(const LaneSurface& surface, double who,
+                                                       const RaySheet& rays, std::uint64_t active,
+                                                       const ShadowQuestion& question) {
+    const Sight sight(surface, rays, question.lambda_max);
+    std::uint64_t all = 0;
+    for (int i = 0; i < rays.padded; i += N) {
+      unsigned open = lanes_of(active, i);
+      if (open != 0 && question.own != nullptr) open &= ~bits(V::load(question.own + i) == V(who));
+      if (open == 0 || (open & sight.lanes(rays, i)) == 0) continue;
+      const V lambda = first_crossing<Form>(surface, {origin_of(rays, i), load3<V>(rays.direction, i)}).lambda;
+      const unsigned met = bits((lambda > V(0.0)) & (lambda < V(question.lambda_max)));
+      all |= static_cast<std::uint64_t>(met & open) << i;
+    }
+    return all;
+  }
+
+  /// Stores the lanes of some rays, as the others are.
+  static BACKLIGHT_LANES void put(unsigned lanes, V a, double* to) { pick(lanes, a, V::load(to)).store(to); }
+  static BACKLIGHT_LANES void put(unsigned lanes, V3 a, double (&to)[3][sheet_size], int i) {
+    put(lanes, a.x, to[0] + i);
+    put(lanes, a.y, to[1] + i);
+    put(lanes, a.z, to[2] + i);
+  }
+
+  template <class Form>
+  static BACKLIGHT_LANES std::uint64_t points_by(const LaneSurface& surface, const RaySheet& rays, int first,
+                                                 int last, const SheetHits& hits, SheetPoints& out,
+                                                 double (&local)[3][sheet_size]) {
+    std::uint64_t left = 0;
+    const std::uint64_t wanted =
+        (last < 64 ? (std::uint64_t{1} << last) - 1 : ~std::uint64_t{0}) & (~std::uint64_t{0} << first);
+    for (int i = first / N * N; i < last; i += N) {
+      const unsigned lanes = lanes_of(wanted, i);
+      const LaneLine<V> line = lane_line(surface, LaneRay<V>{origin_of(rays, i), load3<V>(rays.direction, i)});
+      V along = V::load(hits.along + i);
+      if constexpr (is_plane<Form>) {
+        along = -line.point.y / line.direction.y;
+        const V off = magnitude(line.lambda(along) - V::load(hits.lambda + i));
+        const Mask sure = ~(line.direction.y == V(0.0)) & (off < V(infinity));
+        left |= static_cast<std::uint64_t>(lanes & ~bits(sure)) << i;
+      }
+      const LaneLocalPoint<V> point = Form::point(surface.values, line.at(along), V::load(hits.part + i));
+      const LanePoint<V> placed = in_rest_frame(surface, point, Form::unit_gradient);
+      put(lanes, point.position, local, i);
+      put(lanes, placed.position, out.position, i);
+      put(lanes, placed.normal, out.normal, i);
+      put(lanes, placed.error_bound, out.error_bound + i);
+    }
+    return left;
+  }
+};
+
+}  // namespace backlight
