@@ -209,28 +209,28 @@ std::vector<Own> own_methods(const KnownSurface& surface) {
 }
 
 void trace(const Own& method, const Setup& s, Answers& answers) {
-  constexpr std::size_t most = 64;
-  const std::vector<double> zeros(most, 0.0), minus(most, -1.0);
-  std::array<std::vector<double>, 3> from, towards;
-  for (int k = 0; k < 3; ++k)
-    from[std::size_t(k)].assign(most, s.eye[k]), towards[std::size_t(k)].resize(most);
-  std::vector<Hit> hits(most);
+  constexpr std::size_t most = sheet_size;
+  RaySheet sheet;
+  sheet.one_origin = true;
+  sheet.start_time[0] = 0.0;
+  for (int k = 0; k < 3; ++k) sheet.origin[k][0] = s.eye[k];
   answers.lambda.clear();
   answers.unresolved.clear();
   for (std::size_t first = 0; first < s.rays.size(); first += most) {
     const std::size_t count = std::min(most, s.rays.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      for (int k = 0; k < 3; ++k) towards[std::size_t(k)][i] = s.rays[first + i][k];
+    sheet.padded = static_cast<int>((count + 7) / 8 * 8);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(sheet.padded); ++i) {
+      const Vec3& ray = s.rays[first + std::min(i, count - 1)];
+      for (int k = 0; k < 3; ++k) sheet.direction[k][i] = ray[k];
+      sheet.length[i] = glm::length(ray);
+      sheet.time_rate[i] = -1.0;
     }
-    const SurfaceSet::Rays rays{count,
-                                {from[0].data(), from[1].data(), from[2].data()},
-                                {towards[0].data(), towards[1].data(), towards[2].data()},
-                                zeros.data(),
-                                minus.data()};
-    method.set->first_crossings_of(0, rays, std::span<Hit>(hits).first(count));
-    for (std::size_t i = 0; i < count; ++i) {
-      answers.lambda.push_back(hits[i].found() ? hits[i].lambda : none);
-      answers.unresolved.push_back(hits[i].found() && hits[i].unresolved);
+    SheetHits hits;
+    hits.clear(most);
+    method.set->nearest(sheet, count < most ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0}, 0.0, hits);
+    for (int i = 0; i < static_cast<int>(count); ++i) {
+      answers.lambda.push_back(hits.who[i] < 0.0 ? none : hits.lambda[i]);
+      answers.unresolved.push_back(hits.who[i] >= 0.0 && hits.is_unresolved(i));
     }
   }
 }

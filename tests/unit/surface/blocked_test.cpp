@@ -46,8 +46,20 @@ struct Rays {
       }
     }
   }
-  [[nodiscard]] SurfaceSet::Rays rays() const {
-    return {count, {origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, time, rate};
+  /// The first 64 of them.
+  [[nodiscard]] RaySheet sheet() const {
+    RaySheet sheet;
+    sheet.padded = sheet_size;
+    for (std::size_t i = 0; i < sheet_size; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        sheet.origin[k][i] = origin[k][i];
+        sheet.direction[k][i] = direction[k][i];
+      }
+      sheet.length[i] = glm::length(along(i));
+      sheet.start_time[i] = time[i];
+      sheet.time_rate[i] = rate[i];
+    }
+    return sheet;
   }
   [[nodiscard]] Vec3 from(std::size_t i) const { return {origin[0][i], origin[1][i], origin[2][i]}; }
   [[nodiscard]] Vec3 along(std::size_t i) const {
@@ -63,7 +75,7 @@ void expect_what_the_first_crossing_says(const Shape& shape) {
   int hits = 0;
   for (std::size_t i = 0; i < Rays::count; ++i) {
     const double lambda = set.nearest(rays.from(i), rays.along(i)).lambda;
-    const auto blocked = [&](double end) { return set.blocked(rays.from(i), rays.along(i), 0.0, end); };
+    const auto blocked = [&](double end) { return set.blocked(rays.from(i), rays.along(i), end); };
     EXPECT_EQ(blocked(std::numeric_limits<double>::infinity()), std::isfinite(lambda)) << i;
     if (!std::isfinite(lambda)) continue;
     ++hits;
@@ -74,10 +86,9 @@ void expect_what_the_first_crossing_says(const Shape& shape) {
   }
   EXPECT_GT(hits, 30);
   for (const double end : {1.0, 5.0, std::numeric_limits<double>::infinity()}) {
-    bool together[Rays::count];
-    set.blocked_by(0, rays.rays(), end, together);
-    for (std::size_t i = 0; i < Rays::count; ++i) {
-      EXPECT_EQ(together[i], set.blocked(rays.from(i), rays.along(i), 0.0, end)) << i << " " << end;
+    const std::uint64_t together = set.blocked(rays.sheet(), ~std::uint64_t{0}, end);
+    for (std::size_t i = 0; i < sheet_size; ++i) {
+      EXPECT_EQ((together >> i) & 1U, set.blocked(rays.from(i), rays.along(i), end) ? 1U : 0U) << i << " " << end;
     }
   }
 }

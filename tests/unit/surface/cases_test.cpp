@@ -64,21 +64,23 @@ double size_of(const SurfaceSet& set, const Case& c) {
   return std::isfinite(radius) ? radius : std::max(1.0, glm::length(Vec3(c.point) - Vec3(c.position)));
 }
 
-void check(const Case& c, SearchMethod method) {
+void check(const Case& c, Search search) {
   Shape shape{c.kind, {}};
   std::copy(std::begin(c.values), std::end(c.values), shape.values.begin());
   SurfaceSet set;
   set.add(shape, Placement(c.position, c.rotate, c.scale));
-  set.build(method);
-  const Hit hit = set.nearest(c.origin, c.direction);
+  set.build();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto blocked = [&](double end) { return set.blocked(c.origin, c.direction, end, {}, search); };
+  const Hit hit = set.nearest(c.origin, c.direction, infinity, {}, search);
   ASSERT_EQ(hit.found(), c.hit);
-  EXPECT_EQ(set.blocked(c.origin, c.direction, 0.0, std::numeric_limits<double>::infinity()), c.hit);
+  EXPECT_EQ(blocked(infinity), c.hit);
   if (!c.hit) {
     return;
   }
   EXPECT_NEAR(hit.lambda, c.lambda, c.lambda_tolerance);
-  EXPECT_FALSE(set.blocked(c.origin, c.direction, 0.0, hit.lambda));  // an open interval
-  EXPECT_TRUE(set.blocked(c.origin, c.direction, 0.0, std::nextafter(hit.lambda, 1e300)));
+  EXPECT_FALSE(blocked(hit.lambda));  // an open interval
+  EXPECT_TRUE(blocked(std::nextafter(hit.lambda, 1e300)));
 
   const SurfacePoint point = set.resolve(hit, c.origin, c.direction);
   EXPECT_LE(glm::length(point.position - Vec3(c.point)), c.point_tolerance);
@@ -103,8 +105,8 @@ void check_all(const Case (&cases)[count], std::size_t at_least) {
   std::size_t hits = 0;
   for (std::size_t i = 0; i < count; ++i) {
     SCOPED_TRACE("case " + std::to_string(i) + ", line " + std::to_string(i + 2));
-    check(cases[i], SearchMethod::list);
-    check(cases[i], SearchMethod::tree);
+    check(cases[i], Search::every_surface);
+    check(cases[i], Search::tree);
     hits += cases[i].hit ? 1 : 0;
   }
   EXPECT_GE(hits, count / 5);

@@ -196,8 +196,8 @@ TEST(Implicit, IsAShapeAmongTheOthers) {
   EXPECT_LE(glm::length(point.position - Vec3(1.0, 2.5, 3.0 - std::sqrt(0.75))), 2e-15);
   EXPECT_LE(glm::length(point.normal - Vec3(0.0, 0.5, -std::sqrt(0.75))), 2e-15);
   EXPECT_LE(point.error_bound, 1e-13);
-  EXPECT_FALSE(set.blocked(point.position + point.error_bound * point.normal, point.normal, 0.0, 100.0));
-  EXPECT_TRUE(set.blocked(point.position + point.error_bound * point.normal, -point.normal, 0.0, 100.0));
+  EXPECT_FALSE(set.blocked(point.position + point.error_bound * point.normal, point.normal, 100.0));
+  EXPECT_TRUE(set.blocked(point.position + point.error_bound * point.normal, -point.normal, 100.0));
 }
 
 TEST(Implicit, FollowsItsOwnTime) {

@@ -25,11 +25,11 @@ void expect_the_bits_of_one(const SurfaceKernels& kernels, const PlacedSurface& 
     lines->time[i] = normal(generator);
     lines->rate[i] = normal(generator);
   }
-  kernels.local_lines(lane_placement(surface), *lines);
+  kernels.local_lines(surface.lanes, *lines);
   for (std::size_t i = 0; i < lines->count; ++i) {
-    const RestRay ray({lines->origin[0][i], lines->origin[1][i], lines->origin[2][i]},
+    const RestRay ray{{lines->origin[0][i], lines->origin[1][i], lines->origin[2][i]},
                       {lines->along[0][i], lines->along[1][i], lines->along[2][i]},
-                      {lines->time[i], lines->rate[i]});
+                      {lines->time[i], lines->rate[i]}};
     const LocalLine one = local_line(ray, surface);
     const LocalLine its = lines->line(i);
     EXPECT_EQ(its.point, one.point) << i;

@@ -96,28 +96,26 @@ TEST(QuadricBounds, AreClaimedOfNothingElse) {
 TEST(QuadricBounds, LoseNoHit) {
   std::mt19937_64 random(9);
   std::normal_distribution<double> normal;
-  SurfaceSet list, tree;
+  SurfaceSet set;
   for (int i = 0; i < 40; ++i) {
     const double x = 0.7 * (i % 7) - 2.0, y = 0.8 * (i / 7) - 2.0;
     const Shape shape = quadric({3.0, 5.0, 4.0, 1.0, -0.5, 0.7, 0.1 * i, 0.2, -0.3, -1.0});
     const Placement placement(Vec3{x, y, 0.1 * i}, Vec3{10.0 * i, 5.0, 0.0}, Vec3{1.0, 0.7, 1.2});
-    list.add(shape, placement);
-    tree.add(shape, placement);
+    set.add(shape, placement);
   }
-  list.build(SearchMethod::list);
-  tree.build(SearchMethod::tree);
+  set.build();
   int hits = 0;
   for (int i = 0; i < 3000; ++i) {
     const Vec3 from{10.0 * normal(random), 10.0 * normal(random), 10.0 * normal(random)};
     const Vec3 way = Vec3{normal(random), normal(random), normal(random)} - from;
     Hit nearest;
     for (int s = 0; s < 40; ++s) {
-      const Hit hit = list.first_crossing_of(s, from, way);
+      const Hit hit = set.first_crossing_of(s, from, way);
       if (hit.lambda < nearest.lambda) nearest = hit;
     }
     hits += nearest.found() ? 1 : 0;
-    for (const SurfaceSet* set : {&list, &tree}) {
-      const Hit hit = set->nearest(from, way);
+    for (const Search search : {Search::tree, Search::every_surface}) {
+      const Hit hit = set.nearest(from, way, std::numeric_limits<double>::infinity(), {}, search);
       EXPECT_EQ(hit.surface, nearest.surface);
       EXPECT_EQ(hit.lambda, nearest.lambda);
     }

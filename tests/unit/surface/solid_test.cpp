@@ -103,8 +103,8 @@ TEST(Solid, WallsOfAHoleFaceIntoTheHole) {
   EXPECT_DOUBLE_EQ(within.hit.lambda, 0.25);
   EXPECT_DOUBLE_EQ(within.point.normal.x, -1.0);
   EXPECT_EQ(look(set, {0.75, 0, 0}, {1, 0, 0}).point.member, 0);
-  EXPECT_TRUE(set.blocked({0, 0, 0}, {1, 0, 0}, 0.0, 0.6));
-  EXPECT_FALSE(set.blocked({0, 0, 0}, {0, 1, 0}, 0.0, infinity));
+  EXPECT_TRUE(set.blocked({0, 0, 0}, {1, 0, 0}, 0.6));
+  EXPECT_FALSE(set.blocked({0, 0, 0}, {0, 1, 0}, infinity));
 }
 
 // Glued boxes: one solid, from any side, turned or not and far away or near.

@@ -66,28 +66,57 @@ Placement some_placement(Random& random, double spread, bool turned) {
   return Placement(position, rotate, turned ? Vec3{one, two, -1.0} : Vec3{1.0});
 }
 
-/// The same surfaces, searched by list and by tree.
+/// Surfaces that are searched by the tree, alone and in sheets of every width, and by asking each of them.
 struct Twins {
-  SurfaceSet list;
-  SurfaceSet tree;
+  SurfaceSet set;
 
-  void add(const Shape& shape, const Placement& placement) {
-    EXPECT_EQ(list.add(shape, placement), tree.add(shape, placement));
-  }
-  void build() {
-    list.build(SearchMethod::list);
-    tree.build(SearchMethod::tree);
-  }
+  void add(const Shape& shape, const Placement& placement) { set.add(shape, placement); }
+  void build() { set.build(); }
   /// True if something was hit.
   bool agree(const Vec3& origin, const Vec3& direction, double limit) const {
-    const Hit one = list.nearest(origin, direction, limit);
-    const Hit two = tree.nearest(origin, direction, limit);
+    const Hit one = set.nearest(origin, direction, limit, {}, Search::every_surface);
+    expect_same(one, set.nearest(origin, direction, limit, {}, Search::tree));
+    for (const InstructionSet width : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::widest}) {
+      for (const bool one_origin : {true, false}) {
+        RaySheet sheet = sheet_of(origin, direction, width, one_origin);
+        SheetHits hits;
+        hits.clear(8);
+        std::fill_n(hits.lambda, 8, limit);
+        set.nearest(sheet, 0x81, 0.0, hits);
+        expect_same(one, hit_of(hits, 0));
+        expect_same(one, hit_of(hits, 7));
+        EXPECT_EQ(set.blocked(sheet, 0x81, limit), one.found() ? 0x81U : 0U);
+      }
+    }
+    EXPECT_EQ(set.blocked(origin, direction, limit, {}, Search::every_surface), one.found());
+    EXPECT_EQ(set.blocked(origin, direction, limit, {}, Search::tree), one.found());
+    return one.found();
+  }
+
+ private:
+  static void expect_same(const Hit& one, const Hit& two) {
     EXPECT_EQ(one.surface, two.surface);
     EXPECT_EQ(one.lambda, two.lambda);
     EXPECT_EQ(one.part, two.part);
-    EXPECT_EQ(list.blocked(origin, direction, 0.0, limit), one.found());
-    EXPECT_EQ(tree.blocked(origin, direction, 0.0, limit), one.found());
-    return one.found();
+  }
+  static RaySheet sheet_of(const Vec3& origin, const Vec3& direction, InstructionSet width, bool one_origin) {
+    RaySheet sheet;
+    sheet.padded = 8;
+    sheet.one_origin = one_origin;
+    sheet.instructions = width;
+    for (int i = 0; i < 8; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        sheet.origin[k][i] = origin[k];
+        sheet.direction[k][i] = direction[k];
+      }
+      sheet.length[i] = glm::length(direction);
+      sheet.start_time[i] = sheet.time_rate[i] = 0.0;
+    }
+    return sheet;
+  }
+  static Hit hit_of(const SheetHits& hits, int ray) {
+    if (hits.who[ray] < 0.0) return {};
+    return {hits.lambda[ray], static_cast<int>(hits.who[ray]), hits.part_of(ray)};
   }
 };
 
@@ -145,8 +174,8 @@ TEST(SurfaceSet, EqualLambdaGoesToTheSmallerIndex) {
     }
     const Vec3 origin{place + 0.25, 3, 0.1};
     ASSERT_TRUE(twins.agree(origin, {0, -1, 0}, infinity));
-    EXPECT_EQ(twins.tree.nearest(origin, {0, -1, 0}).surface, first);
-    EXPECT_EQ(twins.tree.nearest(origin, {0, -1, 0}).lambda, 2.5);
+    EXPECT_EQ(twins.set.nearest(origin, {0, -1, 0}).surface, first);
+    EXPECT_EQ(twins.set.nearest(origin, {0, -1, 0}).lambda, 2.5);
   }
 }
 
@@ -159,10 +188,11 @@ TEST(SurfaceSet, IntervalsAreOpen) {
   EXPECT_EQ(set.nearest(origin, direction).lambda, 4.0);
   EXPECT_EQ(set.nearest(origin, direction).part, 1);
   EXPECT_FALSE(set.nearest(origin, direction, 4.0).found());
-  EXPECT_TRUE(set.blocked(origin, direction, 0.0, 4.5));
-  EXPECT_FALSE(set.blocked(origin, direction, 4.0, 8.0));
-  EXPECT_TRUE(set.blocked(origin, direction, 4.0, 8.5));
-  EXPECT_FALSE(set.blocked(origin, direction, 8.0, infinity));
+  EXPECT_TRUE(set.blocked(origin, direction, 4.5));
+  const Vec3 face = origin + 4.0 * direction;
+  EXPECT_FALSE(set.blocked(face, direction, 4.0));
+  EXPECT_TRUE(set.blocked(face, direction, 4.5));
+  EXPECT_FALSE(set.blocked(face + 4.0 * direction, direction, infinity));
   EXPECT_EQ(set.nearest({0, 0, 0}, direction).lambda, 2.0);  // from inside
 }
 
@@ -209,7 +239,7 @@ TEST(SurfaceSet, ShadowRaysDoNotMeetTheirOwnStart) {
     const Vec3 tangent = away - glm::dot(away, point.normal) * point.normal;
     away = kind == 4 ? point.normal : glm::normalize(tangent) + tilt * point.normal;
     const double limit = kind == 4 ? 0.01 : infinity;
-    EXPECT_FALSE(set.blocked(start, away, 0.0, limit))
+    EXPECT_FALSE(set.blocked(start, away, limit))
         << "kind " << kind << ", ray " << i << ", tilt " << tilt;
     EXPECT_LT(point.error_bound, 1e-9 * (1.0 + glm::length(point.position)));
     ++starts;
@@ -240,12 +270,14 @@ TEST(SurfaceSet, BoundsHoldWhatTheyBound) {
     }
   }
   ASSERT_GT(points.size(), 1000U);
+  all.build();
   const BoundingSphere whole = all.bounds();
   EXPECT_LT(whole.radius, 4.0 * std::sqrt(3.0) + 3.0);
   for (const Vec3& point : points) {
     EXPECT_LE(glm::length(point - whole.centre), whole.radius);
   }
   all.add(plane(), Placement());
+  all.build();
   EXPECT_EQ(all.bounds().radius, infinity);
 }
 
