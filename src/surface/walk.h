@@ -107,37 +107,22 @@ class Walk {
   /// along either of the others.
   class Pyramid {
    public:
-    /// False: they do not all go the same way along the axis that most of them go along. `lambda`: how far
-    /// each goes, from its origin or, for `from_ends`, back from its end to it; null: as far as `lambda_max`.
-    bool make(const RaySheet& rays, std::uint64_t active, const double* lambda, double lambda_max,
-              bool from_ends) {
-      V3 sum{V(0.0), V(0.0), V(0.0)}, least{V(infinity), V(infinity), V(infinity)}, most = -least;
-      for (int i = 0; i < rays.padded; i += N) {
-        const unsigned lanes = lanes_of(active, i);
-        if (lanes == 0) continue;
-        const V3 d = load3<V>(rays.direction, i);
-        V3 o = origin_of(rays, i);
-        if (from_ends) o = o + V(lambda_max) * d;
-        include(lanes, d.x, o.x, sum.x, least.x, most.x);
-        include(lanes, d.y, o.y, sum.y, least.y, most.y);
-        include(lanes, d.z, o.z, sum.z, least.z, most.z);
-      }
-      set_origin(0, least_of(least.x), most_of(most.x), total(sum.x));
-      set_origin(1, least_of(least.y), most_of(most.y), total(sum.y));
-      set_origin(2, least_of(least.z), most_of(most.z), total(sum.z));
-      const int ab = size_[0] >= size_[1] ? 0 : 1;
-      axis_[0] = size_[ab] >= size_[2] ? ab : 2;
-      axis_[1] = axis_[0] == 0 ? 1 : 0;
-      axis_[2] = axis_[0] == 2 ? 1 : 2;
-      if (from_ends) {
-        for (int k = 0; k < 3; ++k) sign_[k] = -sign_[k];
-      }
-      return set_slopes(rays, active, lambda, lambda_max, from_ends ? -1.0 : 1.0);
+    /// Of rays that go as far as `lambda` says of each. False: they do not all go the same way along the axis
+    /// that the first one goes along.
+    bool make(const RaySheet& rays, std::uint64_t active, const double* lambda) {
+      const Box origins = rays.one_origin ? Box(rays) : Box(rays, active, 0.0);
+      return make(origins, 1.0, rays, active, lambda, infinity);
     }
 
-    /// Of how large a box the rays come.
-    [[nodiscard]] double spread() const {
-      return (high_[0] - low_[0]) + (high_[1] - low_[1]) + (high_[2] - low_[2]);
+    /// Of segments that end at lambda_max: it begins where their starts are or, if these are nearer to one
+    /// another, at their ends. (The light of a lamp comes from a point, or from few.)
+    bool make(const RaySheet& rays, std::uint64_t active, double lambda_max) {
+      const Box starts(rays, active, 0.0);
+      if (!(lambda_max < infinity)) return make(starts, 1.0, rays, active, nullptr, lambda_max);
+      Box ends(rays, active, lambda_max);
+      ends.widen(starts);  // they are sums of numbers as large as these
+      const bool back = ends.size() < starts.size();
+      return make(back ? ends : starts, back ? -1.0 : 1.0, rays, active, nullptr, lambda_max);
     }
 
     /// How far along the axis it reaches.
@@ -174,28 +159,70 @@ class Walk {
     }
 
    private:
-    static BACKLIGHT_LANES void include(unsigned lanes, V d, V o, V& sum, V& least, V& most) {
-      sum = sum + pick(lanes, d, V(0.0));
-      least = smaller(least, pick(lanes, o, least));
-      most = larger(most, pick(lanes, o, most));
-    }
-    static double total(V a) {
-      double sum = 0.0;
-      for (int i = 0; i < N; ++i) sum += lane(a, i);
-      return sum;
-    }
+    /// Around some points of the rays, with room for the rounding of differences from them.
+    struct Box {
+      double low[3], high[3];
 
-    // With room for the rounding of differences from it.
-    void set_origin(int k, double low, double high, double sum) {
-      const double size = (low < 0.0 ? -low : low) + (high < 0.0 ? -high : high);
-      low_[k] = low - 2e-15 * size;
-      high_[k] = high + 2e-15 * size;
-      size_[k] = sum < 0.0 ? -sum : sum;
-      sign_[k] = sum < 0.0 ? -1.0 : 1.0;
-    }
+      explicit Box(const RaySheet& rays) {
+        for (int k = 0; k < 3; ++k) set(k, rays.origin[k][0], rays.origin[k][0]);
+      }
+      Box(const RaySheet& rays, std::uint64_t active, double lambda) {
+        V3 least{V(infinity), V(infinity), V(infinity)}, most = -least;
+        for (int i = 0; i < rays.padded; i += N) {
+          const unsigned lanes = lanes_of(active, i);
+          if (lanes == 0) continue;
+          const V3 p = origin_of(rays, i) + V(lambda) * load3<V>(rays.direction, i);
+          include(lanes, p.x, least.x, most.x);
+          include(lanes, p.y, least.y, most.y);
+          include(lanes, p.z, least.z, most.z);
+        }
+        set(0, least_of(least.x), most_of(most.x));
+        set(1, least_of(least.y), most_of(most.y));
+        set(2, least_of(least.z), most_of(most.z));
+      }
+      [[nodiscard]] double size() const {
+        return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]);
+      }
 
-    bool set_slopes(const RaySheet& rays, std::uint64_t active, const double* lambda, double lambda_max,
-                    double way) {
+      void widen(const Box& other) {
+        for (int k = 0; k < 3; ++k) {
+          const double room = room_for(other.low[k], other.high[k]);
+          low[k] -= room;
+          high[k] += room;
+        }
+      }
+
+     private:
+      static double room_for(double a, double b) {
+        return 2e-15 * ((a < 0.0 ? -a : a) + (b < 0.0 ? -b : b));
+      }
+      static BACKLIGHT_LANES void include(unsigned lanes, V p, V& least, V& most) {
+        least = smaller(least, pick(lanes, p, least));
+        most = larger(most, pick(lanes, p, most));
+      }
+      void set(int k, double least, double most) {
+        const double room = room_for(least, most);
+        low[k] = least - room;
+        high[k] = most + room;
+      }
+    };
+
+    /// `way`: 1, or -1 for rays backwards.
+    bool make(const Box& origins, double way, const RaySheet& rays, std::uint64_t active, const double* lambda,
+              double lambda_max) {
+      const int first = __builtin_ctzll(active);
+      double size[3];
+      for (int k = 0; k < 3; ++k) {
+        low_[k] = origins.low[k];
+        high_[k] = origins.high[k];
+        const double d = way * rays.direction[k][first];
+        sign_[k] = d < 0.0 ? -1.0 : 1.0;
+        size[k] = d * sign_[k];
+      }
+      axis_[0] = size[0] >= size[1] ? (size[0] >= size[2] ? 0 : 2) : (size[1] >= size[2] ? 1 : 2);
+      axis_[1] = axis_[0] == 0 ? 1 : 0;
+      axis_[2] = axis_[0] == 2 ? 1 : 2;
+      reach_room_ = origins.size();
       const V sign(sign_[axis_[0]] * way);
       V low[2] = {V(infinity), V(infinity)}, high[2] = {V(-infinity), V(-infinity)}, most(0.0);
       for (int i = 0; i < rays.padded; i += N) {
@@ -212,7 +239,6 @@ class Walk {
           high[k] = larger(high[k], pick(lanes, slope, high[k]));
         }
       }
-      reach_room_ = spread();
       far = most_of(most) * (1.0 + 1e-14) + reach_room_;
       for (int k = 0; k < 2; ++k) {
         const double least = least_of(low[k]), greatest = most_of(high[k]);
@@ -232,7 +258,7 @@ class Walk {
     }
 
     int axis_[3];  // the one that the rays go along, and the others
-    double sign_[3], size_[3];
+    double sign_[3];
     double low_[3], high_[3];  // of the origins
     double slope_[2][2];
     double reach_room_;
@@ -324,7 +350,7 @@ class Walk {
 
   static void descend(const WalkSurfaces& s, const RaySheet& rays, std::uint64_t active, SheetHits& hits) {
     Pyramid pyramid;
-    if (!pyramid.make(rays, active, hits.lambda, infinity, false)) {
+    if (!pyramid.make(rays, active, hits.lambda)) {
       const std::uint64_t half = half_of(active);
       if (half == active) return;  // not a number
       descend(s, rays, active & ~half, hits);
@@ -340,16 +366,8 @@ class Walk {
 
   static std::uint64_t descend(const WalkSurfaces& s, const RaySheet& rays, std::uint64_t active,
                                const ShadowQuestion& question) {
-    // The light of a lamp comes from a point, or from few: then the pyramid begins there.
-    Pyramid pyramid, from_lamp;
-    bool made = pyramid.make(rays, active, nullptr, question.lambda_max, false);
-    if (question.lambda_max < infinity &&
-        from_lamp.make(rays, active, nullptr, question.lambda_max, true) &&
-        (!made || from_lamp.spread() < pyramid.spread())) {
-      pyramid = from_lamp;
-      made = true;
-    }
-    if (!made) {
+    Pyramid pyramid;
+    if (!pyramid.make(rays, active, question.lambda_max)) {
       const std::uint64_t half = half_of(active);
       if (half == active) return 0;  // not a number
       return descend(s, rays, active & ~half, question) | descend(s, rays, half, question);
