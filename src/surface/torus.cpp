@@ -8,9 +8,6 @@
 // nothing to miss. (Isolation by the derivative's roots: C. Yuksel, "High-performance polynomial root finding
 // for graphics", 2022.)
 //
-// The first root of many lines is found over lanes (torus_lanes.h), by the same equations. A solid's parts
-// want all roots: those are found here, one line at a time.
-//
 // F itself loses digits on thin tubes; signs and roots are taken from the distance form
 //     g(t) = (ρ - R)² + y² - r²,  ρ = √(x²+z²),
 // which is F divided by (ρ + R)² + y² - r² > 0 (as r < R), and is right to rounding of the coordinates.
@@ -24,146 +21,18 @@
 namespace backlight {
 namespace {
 
-struct ValueAndSlope {
-  double value;
-  double slope;
-};
-
-struct DepressedCubic {
-  double p;
-  double q;
-
-  [[nodiscard]] double value(double t) const { return (t * t + p) * t + q; }
-  [[nodiscard]] ValueAndSlope operator()(double t) const { return {value(t), 3.0 * t * t + p}; }
-};
-
-struct TorusAlongLine {
-  const LocalLine& line;
-  double major;
-  double minor;
-
-  [[nodiscard]] double value(double t) const { return (*this)(t).value; }
-  [[nodiscard]] ValueAndSlope operator()(double t) const {
-    const Vec3 p = line.at(t);
-    const double rho = std::sqrt(p.x * p.x + p.z * p.z);
-    const double beside = rho - major;
-    const double rho_rate = rho > 0.0 ? (p.x * line.direction.x + p.z * line.direction.z) / rho : 0.0;
-    return {(beside - minor) * (beside + minor) + p.y * p.y,
-            2.0 * (beside * rho_rate + p.y * line.direction.y)};
-  }
-};
-
-/// The root of f in [low, high], at whose ends f has different signs (zero counts as negative): Newton's
-/// steps, with a bisection wherever the step leaves the bracket or is not less than half the step before.
-template <class Function>
-double bracketed_root(const Function& f, double low, double high, bool negative_at_low, double size) {
-  const double tolerance = 1e-16 * size;
-  double t = 0.5 * (low + high);
-  double step = high - low;
-  double step_before = step;
-  while (true) {
-    const ValueAndSlope at = f(t);
-    ((at.value <= 0.0) == negative_at_low ? low : high) = t;
-    const double newton = at.value / at.slope;
-    if (std::abs(newton) <= tolerance) {
-      return std::clamp(t - newton, low, high);
-    }
-    const bool useful =
-        t - newton > low && t - newton < high && 2.0 * std::abs(newton) < std::abs(step_before);
-    step_before = step;
-    const double next = useful ? t - newton : low + 0.5 * (high - low);
-    step = useful ? newton : 0.5 * (high - low);
-    if (std::abs(step) <= tolerance || next == t) {
-      return next;  // the bracket is as small as rounding lets it be
-    }
-    t = next;
-  }
-}
-
-/// Points that cut [low, high] into pieces on which the torus's quartic is monotone, low and high included.
-struct Cuts {
-  int count = 0;
-  double t[5];
-};
-
-Cuts monotone_pieces(const DepressedCubic& cubic, double low, double high) {
-  double extrema[4] = {low, high, high, high};
-  int pieces = 1;
-  if (cubic.p < 0.0) {
-    const double extremum = std::sqrt(-cubic.p / 3.0);
-    extrema[1] = std::clamp(-extremum, low, high);
-    extrema[2] = std::clamp(extremum, low, high);
-    pieces = 3;
-  }
-  Cuts cuts;
-  cuts.t[cuts.count++] = low;
-  const double size = std::max(std::abs(low), std::abs(high));
-  for (int i = 0; i < pieces; ++i) {
-    const double from = extrema[i];
-    const double to = extrema[i + 1];
-    const bool negative = cubic.value(from) <= 0.0;
-    if (from < to && negative != (cubic.value(to) <= 0.0)) {
-      cuts.t[cuts.count++] = bracketed_root(cubic, from, to, negative, size);
-    }
-  }
-  cuts.t[cuts.count++] = high;
-  return cuts;
-}
-
-/// The stretch of the line where the torus can be: inside its sphere and between its two flat tangent planes,
-/// a hair wider than both so that the ends are outside. False: nowhere.
-bool clip(const LocalLine& line, double major, double minor, double& low, double& high) {
-  const double outer = (major + minor) * (1.0 + 1e-9);
-  const double square = outer * outer - glm::dot(line.point, line.point);
-  if (!(square >= 0.0)) {
-    return false;
-  }
-  high = std::sqrt(square);
-  low = -high;
-  const double half = minor * (1.0 + 1e-9);
-  const double y = line.point.y;
-  const double rate = line.direction.y;
-  if (rate != 0.0) {
-    const double one = (-half - y) / rate;
-    const double other = (half - y) / rate;
-    low = std::max(low, std::min(one, other));
-    high = std::min(high, std::max(one, other));
-  } else if (std::abs(y) > half) {
-    return false;
-  }
-  return low < high;
+TorusQuestion question_of(const Shape& shape, double lambda_min) {
+  return {shape.values[0], shape.values[1], lambda_min};
 }
 
 Crossings all_crossings(const Shape& shape, const LocalLine& line) {
-  const double major = shape.values[0];
-  const double minor = shape.values[1];
+  Lanes<1> roots[4];
+  TorusLanes<Lanes<1>>::all_roots(question_of(shape, -infinite), one_lane(line), roots);
   Crossings result;
-  double low = 0.0;
-  double high = 0.0;
-  if (!clip(line, major, minor, low, high)) {
-    return result;
-  }
-  const Vec3& p = line.point;
-  const Vec3& d = line.direction;
-  const double square = major * major;
-  const DepressedCubic cubic{glm::dot(p, p) + square - minor * minor - 2.0 * square * (d.x * d.x + d.z * d.z),
-                             -2.0 * square * (p.x * d.x + p.z * d.z)};
-  const Cuts cuts = monotone_pieces(cubic, low, high);
-  const TorusAlongLine torus{line, major, minor};
-  const double size = major + minor;
-  bool inside = false;
-  for (int i = 1; i < cuts.count; ++i) {
-    const bool inside_next = i + 1 < cuts.count && torus.value(cuts.t[i]) <= 0.0;
-    if (inside_next != inside) {
-      result.add(bracketed_root(torus, cuts.t[i - 1], cuts.t[i], inside, size), 0);
-    }
-    inside = inside_next;
+  for (const Lanes<1>& root : roots) {
+    if (!std::isnan(root.v)) result.add(root.v, 0);
   }
   return result;
-}
-
-TorusQuestion question_of(const Shape& shape, double lambda_min) {
-  return {shape.values[0], shape.values[1], lambda_min};
 }
 
 void first_crossings_of(const Shape& shape, const LocalLines& lines, double lambda_min,

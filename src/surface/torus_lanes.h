@@ -30,7 +30,35 @@ class TorusLanes {
     }
   }
 
+  /// Up to four roots of the whole line, in order; not a number: there is none.
+  static BACKLIGHT_LANES void all_roots(const TorusQuestion& question, const LaneLine<V>& line, V (&roots)[4]) {
+    TorusLanes torus(question, line);
+    const Mask meets = torus.clip();
+    torus.find_cuts();
+    const V ends[5] = {torus.begin_, torus.cut_[0], torus.cut_[1], torus.cut_[2], torus.high_};
+    Mask inside = torus.size_ < V(0.0);  // nowhere
+    for (int i = 0; i < 4; ++i) {
+      const V at_end = torus.distance(ends[i + 1]).value;
+      const Mask inside_next = i < 3 ? (at_end <= V(0.0)) & (ends[i + 1] > torus.begin_) : ~(torus.size_ > V(0.0));
+      const Mask found = meets & ((inside & ~inside_next) | (~inside & inside_next));
+      torus.from_ = ends[i];
+      torus.to_ = ends[i + 1];
+      torus.falling_ = ~inside;
+      torus.negative_ = select(inside, torus.distance(ends[i]).value, at_end);
+      roots[i] = select(found, torus.polished(found), V(__builtin_nan("")));
+      inside = inside_next;
+    }
+  }
+
  private:
+  BACKLIGHT_LANES TorusLanes(const TorusQuestion& question, const LaneLine<V>& line)
+      : p_(line.point),
+        d_(line.direction),
+        start_(-__builtin_inf()),
+        major_(question.major),
+        minor_(question.minor),
+        size_(question.major + question.minor) {}
+
   BACKLIGHT_LANES TorusLanes(const TorusQuestion& question, const LocalLines& lines, std::size_t k)
       : p_(V::load(lines.point[0] + k), V::load(lines.point[1] + k), V::load(lines.point[2] + k)),
         d_(V::load(lines.direction[0] + k), V::load(lines.direction[1] + k), V::load(lines.direction[2] + k)),
