@@ -133,6 +133,7 @@ WalkSurfaces SurfaceSet::walk_surfaces(Among among, double first_number) const {
           .surfaces = surfaces_.data(),
           .direct = direct_.data() + skipped,
           .direct_count = static_cast<int>(direct_.size() - skipped),
+          .is_lone = surfaces_.size() == 1,
           .first_who = first_number,
           .set = surfaces_.data(),
           .nearest_of = nearest_of,

@@ -22,6 +22,7 @@ struct WalkSurfaces {
   const PlacedSurface* surfaces;
   const int* direct;  ///< surfaces that are asked whatever the rays: those without bounds, and a lone one
   int direct_count;
+  bool is_lone;      ///< there is but one surface, whose bounds the rays are known to meet
   double first_who;  ///< number of surface 0 among the hits
   // For surfaces without a closed form: as below for one surface, of the rays whose bits are set.
   const void* set;
@@ -267,8 +268,11 @@ class Walk {
   /// Which rays of a register may meet a surface's bounding sphere: with room for all rounding.
   class Sight {
    public:
-    BACKLIGHT_LANES Sight(const LaneSurface& surface, const RaySheet& rays, double lambda_max)
-        : surface_(surface), lambda_max_(lambda_max), one_(rays.one_origin), all_(!(surface.radius < infinity)) {
+    BACKLIGHT_LANES Sight(const LaneSurface& surface, bool is_lone, const RaySheet& rays, double lambda_max)
+        : surface_(surface),
+          lambda_max_(lambda_max),
+          one_(rays.one_origin),
+          all_(is_lone || !(surface.radius < infinity)) {
       if (!one_ || all_) return;
       double square = 0.0;
       for (int k = 0; k < 3; ++k) {
@@ -387,10 +391,10 @@ class Walk {
     const double who = s.first_who + index;
     bool nearer = false;
     const auto use = [&](auto form) __attribute__((always_inline)) {
-      nearer = nearest_by<decltype(form)>(surface, who, rays, active, hits);
+      nearer = nearest_by<decltype(form)>(surface, who, s.is_lone, rays, active, hits);
     };
     if (with_form(surface.kind, use)) return nearer;
-    const std::uint64_t near = Sight(surface, rays, infinity).rays(rays, active);
+    const std::uint64_t near = Sight(surface, s.is_lone, rays, infinity).rays(rays, active);
     return near != 0 && s.nearest_of(s.set, index, near, rays, who, hits);
   }
 
@@ -417,9 +421,9 @@ class Walk {
   }
 
   template <class Form>
-  static BACKLIGHT_LANES bool nearest_by(const LaneSurface& surface, double who, const RaySheet& rays,
-                                         std::uint64_t active, SheetHits& hits) {
-    const Sight sight(surface, rays, infinity);
+  static BACKLIGHT_LANES bool nearest_by(const LaneSurface& surface, double who, bool is_lone,
+                                         const RaySheet& rays, std::uint64_t active, SheetHits& hits) {
+    const Sight sight(surface, is_lone, rays, infinity);
     bool any = false;
     for (int i = 0; i < rays.padded; i += N) {
       const unsigned open = lanes_of(active, i);
@@ -445,18 +449,18 @@ class Walk {
     const double who = s.first_who + index;
     std::uint64_t blocked = 0;
     const auto use = [&](auto form) __attribute__((always_inline)) {
-      blocked = blocked_by_form<decltype(form)>(surface, who, rays, active, question);
+      blocked = blocked_by_form<decltype(form)>(surface, who, s.is_lone, rays, active, question);
     };
     if (with_form(surface.kind, use)) return blocked;
-    const std::uint64_t near = Sight(surface, rays, question.lambda_max).rays(rays, active);
+    const std::uint64_t near = Sight(surface, s.is_lone, rays, question.lambda_max).rays(rays, active);
     return near != 0 ? s.blocked_by(s.set, index, near, rays, question.lambda_max) : 0;
   }
 
   template <class Form>
-  static BACKLIGHT_LANES std::uint64_t blocked_by_form(const LaneSurface& surface, double who,
+  static BACKLIGHT_LANES std::uint64_t blocked_by_form(const LaneSurface& surface, double who, bool is_lone,
                                                        const RaySheet& rays, std::uint64_t active,
                                                        const ShadowQuestion& question) {
-    const Sight sight(surface, rays, question.lambda_max);
+    const Sight sight(surface, is_lone, rays, question.lambda_max);
     std::uint64_t all = 0;
     for (int i = 0; i < rays.padded; i += N) {
       unsigned open = lanes_of(active, i);

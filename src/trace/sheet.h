@@ -5,6 +5,7 @@
 // operation by operation, and tests/agreement compares the two bit for bit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "backlight/base/lanes.h"
@@ -69,6 +70,8 @@ struct ConeTable {
   double* level = nullptr;
   double* radius = nullptr;
   double* who = nullptr;  ///< an index, exact as a double
+
+  std::array<double**, 6> columns() { return {&axis[0], &axis[1], &axis[2], &level, &radius, &who}; }
 };
 
 /// A bundle of directions from one event: a cone around `axis`.
@@ -94,6 +97,11 @@ struct LampTable {
   double* radius = nullptr;
   double* core = nullptr;  ///< of a ball all of which is opaque: it surely shades; <= 0: none
   double* who = nullptr;   ///< an index, exact as a double
+
+  std::array<double**, 12> columns() {
+    return {&celerity[0], &celerity[1], &celerity[2], &place[0], &place[1], &place[2],
+            &gamma,       &inverse_gamma_plus_one, &speed, &radius, &core, &who};
+  }
 };
 
 /// The light of one lamp on its way to some points, in the lamp's frame.
@@ -242,8 +250,6 @@ struct SheetKernels {
                         const PointSheet& points, RaySheet& to);
   /// Irradiance and Phong's lobe of the lit points.
   void (*reflect)(const LaneReflection& reflection, PointSheet& points);
-  /// Both of these in one, without a word of what is between them.
-  void (*shine)(const LaneReflection& reflection, PointSheet& points);
   /// rgb += irradiance (diffuse/π + specular lamp) where lit.
   void (*add_light)(const LaneReflection& reflection, PointSheet& points);
   /// To the camera: rgb *= F.

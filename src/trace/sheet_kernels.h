@@ -105,6 +105,30 @@ struct KernelsOf {
     return result;
   }
 
+  static BACKLIGHT_LANES void keep(const ConeTable& from, int i, unsigned hit, ConeTable& to) {
+    const int j = to.count;
+    for (int a = 0; a < 3; ++a) store_kept(V::load(from.axis[a] + i), hit, to.axis[a] + j);
+    store_kept(V::load(from.level + i), hit, to.level + j);
+    store_kept(V::load(from.radius + i), hit, to.radius + j);
+    store_kept(V::load(from.who + i), hit, to.who + j);
+    to.count += __builtin_popcount(hit);
+  }
+
+  static BACKLIGHT_LANES void keep(const LampTable& from, int i, unsigned hit, LampTable& to) {
+    const int j = to.count;
+    for (int a = 0; a < 3; ++a) {
+      store_kept(V::load(from.celerity[a] + i), hit, to.celerity[a] + j);
+      store_kept(V::load(from.place[a] + i), hit, to.place[a] + j);
+    }
+    store_kept(V::load(from.gamma + i), hit, to.gamma + j);
+    store_kept(V::load(from.inverse_gamma_plus_one + i), hit, to.inverse_gamma_plus_one + j);
+    store_kept(V::load(from.speed + i), hit, to.speed + j);
+    store_kept(V::load(from.radius + i), hit, to.radius + j);
+    store_kept(V::load(from.core + i), hit, to.core + j);
+    store_kept(V::load(from.who + i), hit, to.who + j);
+    to.count += __builtin_popcount(hit);
+  }
+
   static void overlapping(const ConeTable& from, const Bundle& b, ConeTable& to) {
     to.count = 0;
     for (int i = 0; i < from.count; i += N) {  // the arrays are longer by a register
@@ -116,12 +140,7 @@ struct KernelsOf {
                          (level * V(b.sine) + radius * V(b.cosine) <= V(0.0));
       const unsigned hit = bits(meets) & (from.count - i < N ? (1U << (from.count - i)) - 1U : ~0U);
       if (hit == 0) continue;
-      const int j = to.count;
-      for (int a = 0; a < 3; ++a) store_kept(V::load(from.axis[a] + i), hit, to.axis[a] + j);
-      store_kept(level, hit, to.level + j);
-      store_kept(radius, hit, to.radius + j);
-      store_kept(V::load(from.who + i), hit, to.who + j);
-      to.count += __builtin_popcount(hit);
+      keep(from, i, hit, to);
     }
   }
 
@@ -219,20 +238,7 @@ struct KernelsOf {
       const unsigned hit =
           bits(from.moving ? may_shade<true>(from, b, i) : may_shade<false>(from, b, i)) & all;
       if (hit == 0) continue;
-      const int j = to.count;
-      store_kept(V::load(from.celerity[0] + i), hit, to.celerity[0] + j);
-      store_kept(V::load(from.celerity[1] + i), hit, to.celerity[1] + j);
-      store_kept(V::load(from.celerity[2] + i), hit, to.celerity[2] + j);
-      store_kept(V::load(from.place[0] + i), hit, to.place[0] + j);
-      store_kept(V::load(from.place[1] + i), hit, to.place[1] + j);
-      store_kept(V::load(from.place[2] + i), hit, to.place[2] + j);
-      store_kept(V::load(from.gamma + i), hit, to.gamma + j);
-      store_kept(V::load(from.inverse_gamma_plus_one + i), hit, to.inverse_gamma_plus_one + j);
-      store_kept(V::load(from.speed + i), hit, to.speed + j);
-      store_kept(V::load(from.radius + i), hit, to.radius + j);
-      store_kept(V::load(from.core + i), hit, to.core + j);
-      store_kept(V::load(from.who + i), hit, to.who + j);
-      to.count += __builtin_popcount(hit);
+      keep(from, i, hit, to);
     }
   }
 
@@ -499,59 +505,35 @@ struct KernelsOf {
     return all;
   }
 
-  struct Reflected {
-    V irradiance, lobe;
-  };
-  static BACKLIGHT_LANES Reflected reflected(const LaneReflection& r, const PointSheet& p, int i) {
-    const V cosine = V::load(p.cosine + i);
-    const V factor = brightness_factor(r.brightness, V::load(p.lamp_doppler + i), r.gamma, !r.distant);
-    const V strength = r.same_strength ? V(r.strength) : V::load(p.strength + i);
-    const V irradiance = factor * strength * cosine * V::load(p.inverse_square + i);
-    V lobe = 0.0;
-    if (r.specular != 0.0) {
-      const V3 mirrored = V(2.0) * cosine * load3<V>(p.points.normal, i) - load3<V>(p.to_light, i);
-      const V alpha = dot(mirrored, load3<V>(p.to_camera, i));
-      const Mask shines = alpha > V(0.0);
-      if (bits(shines) != 0) {
-        lobe = select(shines, V(r.specular) * power(select(shines, alpha, V(1.0)), V(r.shininess)), V(0.0));
-      }
-    }
-    return {irradiance, lobe};
-  }
-
   static void reflect(const LaneReflection& r, PointSheet& p) {
     for (int i = 0; i < p.padded; i += N) {
       if (bits(V::load(p.lit + i) > V(0.0)) == 0) continue;
-      const Reflected light = reflected(r, p, i);
-      light.irradiance.store(p.irradiance + i);
-      light.lobe.store(p.specular + i);
-    }
-  }
-
-  static BACKLIGHT_LANES void add_lanes(const LaneReflection& r, Reflected light, Mask lit, PointSheet& p,
-                                        int i) {
-    const V pi = 3.141592653589793;
-    const V3 diffuse = (r.same_diffuse ? V3(r.diffuse) : load3<V>(p.diffuse, i)) / pi;
-    const V3 sum = diffuse + light.lobe * V3(r.lamp);
-    const V3 before = r.own != nullptr ? V3{V(r.own[0]), V(r.own[1]), V(r.own[2])} : load3<V>(p.rgb, i);
-    store3(select(lit, before + light.irradiance * sum, before), p.rgb, i);
-  }
-
-  static void shine(const LaneReflection& r, PointSheet& p) {
-    for (int i = 0; i < p.padded; i += N) {
-      const Mask lit = V::load(p.lit + i) > V(0.0);
-      if (bits(lit) != 0) {
-        add_lanes(r, reflected(r, p, i), lit, p, i);
-      } else if (r.own != nullptr) {
-        store3(V3{V(r.own[0]), V(r.own[1]), V(r.own[2])}, p.rgb, i);
+      const V cosine = V::load(p.cosine + i);
+      const V factor = brightness_factor(r.brightness, V::load(p.lamp_doppler + i), r.gamma, !r.distant);
+      const V strength = r.same_strength ? V(r.strength) : V::load(p.strength + i);
+      (factor * strength * cosine * V::load(p.inverse_square + i)).store(p.irradiance + i);
+      V lobe = 0.0;
+      if (r.specular != 0.0) {
+        const V3 mirrored = V(2.0) * cosine * load3<V>(p.points.normal, i) - load3<V>(p.to_light, i);
+        const V alpha = dot(mirrored, load3<V>(p.to_camera, i));
+        const Mask shines = alpha > V(0.0);
+        if (bits(shines) != 0) {
+          const V power_of = power(select(shines, alpha, V(1.0)), V(r.shininess));
+          lobe = select(shines, V(r.specular) * power_of, V(0.0));
+        }
       }
+      lobe.store(p.specular + i);
     }
   }
 
   static void add_light(const LaneReflection& r, PointSheet& p) {
+    const V pi = 3.141592653589793;
     for (int i = 0; i < p.padded; i += N) {
       const Mask lit = V::load(p.lit + i) > V(0.0);
-      add_lanes(r, {V::load(p.irradiance + i), V::load(p.specular + i)}, lit, p, i);
+      const V3 before = r.own != nullptr ? V3{V(r.own[0]), V(r.own[1]), V(r.own[2])} : load3<V>(p.rgb, i);
+      const V3 diffuse = (r.same_diffuse ? V3(r.diffuse) : load3<V>(p.diffuse, i)) / pi;
+      const V3 sum = diffuse + V::load(p.specular + i) * V3(r.lamp);
+      store3(select(lit, before + V::load(p.irradiance + i) * sum, before), p.rgb, i);
     }
   }
 
@@ -579,7 +561,6 @@ struct KernelsOf {
             .turned = turned,
             .cast = cast,
             .reflect = reflect,
-            .shine = shine,
             .add_light = add_light,
             .carry = carry};
   }

@@ -12,39 +12,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Columns of `count` numbers, and room for a register of any width behind the last.
-std::size_t padded(std::size_t count) {
-  return (count + 8) / 4 * 4;
-}
-
 bool is_extended(const FrameView& view) {
   return view.from_camera.is_robust() || view.far != nullptr;
 }
 
 }  // namespace
-
-void ConeStore::resize(std::size_t count) {
-  const std::size_t column = padded(count);
-  numbers_ = std::make_unique_for_overwrite<double[]>(6 * column);
-  for (std::size_t i = 0; i < 3; ++i) table_.axis[i] = numbers_.get() + i * column;
-  table_.level = numbers_.get() + 3 * column;
-  table_.radius = numbers_.get() + 4 * column;
-  table_.who = numbers_.get() + 5 * column;
-  table_.count = static_cast<int>(count);
-}
-
-void LampStore::resize(std::size_t count) {
-  const std::size_t column = padded(count);
-  numbers_ = std::make_unique_for_overwrite<double[]>(12 * column);
-  double* next = numbers_.get();
-  for (double** start : {&table_.celerity[0], &table_.celerity[1], &table_.celerity[2], &table_.gamma,
-                         &table_.inverse_gamma_plus_one, &table_.speed, &table_.place[0], &table_.place[1],
-                         &table_.place[2], &table_.radius, &table_.core, &table_.who}) {
-    *start = next;
-    next += column;
-  }
-  table_.count = static_cast<int>(count);
-}
 
 Displacement<Camera> eye_offset(const CameraView& camera, int eye) {
   if (eye == 0 || !camera.stereo) return {};

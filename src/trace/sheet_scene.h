@@ -11,31 +11,27 @@
 
 namespace backlight {
 
-/// A ConeTable with its memory.
-class ConeStore {
+/// A ConeTable or a LampTable with its memory.
+template <class Table>
+class TableStore {
  public:
-  void resize(std::size_t count);
-  [[nodiscard]] ConeTable& table() { return table_; }
-  [[nodiscard]] const ConeTable& table() const { return table_; }
+  void resize(std::size_t count) {
+    const std::size_t column = (count + 8) / 4 * 4;  // with room for a register of any width behind the last
+    const auto columns = table_.columns();
+    numbers_ = std::make_unique_for_overwrite<double[]>(columns.size() * column);
+    for (std::size_t i = 0; i < columns.size(); ++i) *columns[i] = numbers_.get() + i * column;
+    table_.count = static_cast<int>(count);
+  }
+  [[nodiscard]] Table& table() { return table_; }
+  [[nodiscard]] const Table& table() const { return table_; }
 
  private:
-  ConeTable table_;
+  Table table_;
   // Not touched before it is used: of a large scene's lists most threads use a small part.
   std::unique_ptr<double[]> numbers_;
 };
-
-/// A LampTable with its memory.
-class LampStore {
- public:
-  void resize(std::size_t count);
-  [[nodiscard]] LampTable& table() { return table_; }
-  [[nodiscard]] const LampTable& table() const { return table_; }
-
- private:
-  LampTable table_;
-  // Not touched before it is used: of a large scene's lists most threads use a small part.
-  std::unique_ptr<double[]> numbers_;
-};
+using ConeStore = TableStore<ConeTable>;
+using LampStore = TableStore<LampTable>;
 
 /// A frame with surfaces: what a ray may meet, by its own search.
 struct Entry {

@@ -172,11 +172,28 @@ void SheetShader::fill_diffuse(std::size_t light, int index, LaneReflection& ref
   for (int i = p.count; i < p.padded; ++i) put(LinearRgb{0.0}, p.diffuse, i);
 }
 
-// One lamp's light on the points, as far as shadows, and how they reflect it; false: none of them is lit.
-bool SheetShader::light_reaches(std::size_t index, const Effects& effects, const Material& material,
+// The irradiance of a light that comes from everywhere.
+void SheetShader::ambient_arrives(std::size_t index) {
+  PointSheet& p = work_.points;
+  std::fill_n(p.lit, p.count, 1.0);
+  std::fill(p.lit + p.count, p.lit + p.padded, 0.0);
+  fill_strength(tracer_.scene().lights[index], index);
+  for (int i = 0; i < p.padded; ++i) {
+    p.irradiance[i] = pi * p.strength[i];
+    p.specular[i] = 0.0;
+    p.lamp_doppler[i] = 1.0;
+  }
+}
+
+// One lamp's light on the points, up to its irradiance, and how they reflect it; false: none of them is lit.
+bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const Material& material,
                                 LaneReflection& reflection) {
   PointSheet& p = work_.points;
   const Light& light = tracer_.scene().lights[index];
+  if (light.kind == LightKind::ambient) {
+    ambient_arrives(index);
+    return true;
+  }
   std::uint64_t lit = sheets_.kernels().arrive(lane_lamp(index, entry_->frame), p);
   if (light.flickers || light.strength == 0.0) {
     fill_strength(light, index);
@@ -195,31 +212,7 @@ bool SheetShader::light_reaches(std::size_t index, const Effects& effects, const
   reflection.specular =
       material.specular <= 0.0 ? 0.0 : material.specular * (material.shininess + 2.0) / (2.0 * pi);
   reflection.shininess = material.shininess;
-  return true;
-}
-
-// The same of a light that comes from everywhere, with its irradiance.
-void SheetShader::ambient_arrives(std::size_t index) {
-  PointSheet& p = work_.points;
-  std::fill_n(p.lit, p.count, 1.0);
-  std::fill(p.lit + p.count, p.lit + p.padded, 0.0);
-  fill_strength(tracer_.scene().lights[index], index);
-  for (int i = 0; i < p.padded; ++i) {
-    p.irradiance[i] = pi * p.strength[i];
-    p.specular[i] = 0.0;
-    p.lamp_doppler[i] = 1.0;
-  }
-}
-
-// One lamp's light on the points, up to its irradiance; false: none of them is lit.
-bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const Material& material,
-                                LaneReflection& reflection) {
-  if (tracer_.scene().lights[index].kind == LightKind::ambient) {
-    ambient_arrives(index);
-    return true;
-  }
-  if (!light_reaches(index, effects, material, reflection)) return false;
-  sheets_.kernels().reflect(reflection, work_.points);
+  sheets_.kernels().reflect(reflection, p);
   return true;
 }
 
@@ -230,18 +223,13 @@ void SheetShader::light_rgb(const Material& material, int material_index, const 
   bool first = true;
   const std::vector<Light>& lights = tracer_.scene().lights;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const bool ambient = lights[i].kind == LightKind::ambient;
     LaneReflection reflection;
     for (int k = 0; k < 3; ++k) reflection.lamp[k] = lights[i].colour.rgb[k];
-    if (ambient) {
-      ambient_arrives(i);
-    } else if (!light_reaches(i, effects, material, reflection)) {
-      continue;
-    }
+    if (!light_arrives(i, effects, material, reflection)) continue;
     fill_diffuse(i, material_index, reflection);
     if (first) reflection.own = own_rgb;
     first = false;
-    ambient ? sheets_.kernels().add_light(reflection, p) : sheets_.kernels().shine(reflection, p);
+    sheets_.kernels().add_light(reflection, p);
   }
   for (int k = 0; k < 3 && first; ++k) std::fill_n(p.rgb[k], p.padded, own[k]);
   const double gamma = tracer_.hub().frames[frame()].from_camera.gamma();

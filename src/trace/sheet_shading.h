@@ -112,8 +112,6 @@ class SheetShader {
   void shadow_of_distant(std::size_t light);
 
   void light_rgb(const Material& material, int material_index, const Effects& effects);
-  bool light_reaches(std::size_t light, const Effects& effects, const Material& material,
-                     LaneReflection& reflection);
   void ambient_arrives(std::size_t light);
   bool light_arrives(std::size_t light, const Effects& effects, const Material& material,
                      LaneReflection& reflection);
