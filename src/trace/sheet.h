@@ -132,6 +132,7 @@ struct PointSheet {
   int run_count = 0;
   RaySheet rays;       ///< the camera's, in their frame
   SheetPoints points;  ///< the normal on the side that is seen, after face()
+  int material[sheet_size];
   // face():
   alignas(64) double to_camera[3][sheet_size];
   alignas(64) double proper_time[sheet_size];

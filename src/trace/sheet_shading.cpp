@@ -107,34 +107,29 @@ FirstHit SheetShader::hit(int lane) const {
           Extended(lambda)};
 }
 
-// Returns the index of their material, or -1 for several.
-int SheetShader::resolve() {
+bool SheetShader::resolve() {
   PointSheet& p = work_.points;
   const Scene& scene = tracer_.scene();
   const SurfaceSet& surfaces = sheets_.surfaces(*entry_);
   sheets_.kernels().in_frame(sheets_.eye(eye_).frames[frame()], p);
-  int material = -1;
   for (int r = 0; r < p.run_count; ++r) {
-    const PointSheet::Run& run = p.runs[r];
-    const int surface = run.surface - entry_->first_number;
+    const auto [number, first, last] = p.runs[r];
+    const int surface = number - entry_->first_number, count = last - first;
     const Object& object = object_of(scene, entry_->frame, surface);
     const Material& own = scene.materials[static_cast<std::size_t>(object.material)];
-    const bool textured = !object.member_materials.empty() || own.texture || own.checker;
-    surfaces.points(p.rays, surface, run.first, run.last, *p.hits, textured, p.points);
-    const bool convex = surfaces.is_convex(surface), flat = surfaces.is_flat(surface);
-    for (int i = run.first; i < run.last; ++i) {
-      p.own[i] = convex ? run.surface : -1.0;
-      p.own_inside[i] = flat ? run.surface : -1.0;
-      const int its = object.member_materials.empty()
-                          ? object.material
-                          : object.member_materials[static_cast<std::size_t>(p.points.member[i])];
-      if (i > 0 && its != material) return -1;
-      material = its;
+    const std::vector<int>& members = object.member_materials;
+    const bool textured = !members.empty() || own.texture || own.checker;
+    surfaces.points(p.rays, surface, first, last, *p.hits, textured, p.points);
+    std::fill_n(p.own + first, count, surfaces.is_convex(surface) ? number : -1.0);
+    std::fill_n(p.own_inside + first, count, surfaces.is_flat(surface) ? number : -1.0);
+    std::fill_n(p.material + first, count, object.material);
+    for (int i = first; i < last && !members.empty(); ++i) {
+      p.material[i] = members[static_cast<std::size_t>(p.points.member[i])];
     }
   }
   pad(p);
   sheets_.kernels().face(p);
-  return material;
+  return std::all_of(p.material, p.material + p.count, [&](int its) { return its == p.material[0]; });
 }
 
 void SheetShader::fill_strength(const Light& light, std::size_t index) {
@@ -236,17 +231,14 @@ void SheetShader::light_rgb(const Material& material, int material_index, const 
   sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, p);
 }
 
-bool SheetShader::shade(const Effects& effects) {
-  if (!sheets_.lit_in_lanes(entry_->frame)) return false;
-  const int index = resolve();
-  if (index < 0) return false;
+void SheetShader::shade(const Effects& effects) {
+  const int index = work_.points.material[0];
   const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
   if (tracer_.is_spectral() && effects.doppler) {
     light_spectra(material, index, effects);
   } else {
     light_rgb(material, index, effects);
   }
-  return true;
 }
 
 }  // namespace backlight

@@ -84,9 +84,14 @@ class SheetShader {
   /// The points are now others.
   void begin_points();
 
-  /// The colours of work.points into points.rgb. False where they are of several materials, or take extended
-  /// precision: then they are left to the law.
-  bool shade(const Effects& effects);
+  /// Whether lanes can light the points; else they are left to the law.
+  [[nodiscard]] bool in_lanes() const { return sheets_.lit_in_lanes(entry_->frame); }
+
+  /// Finds the points themselves. False: they are of several materials, as of a solid's members.
+  bool resolve();
+
+  /// The colours of work.points, of one material, into points.rgb.
+  void shade(const Effects& effects);
 
   /// What the ray of a lane of work.points meets.
   [[nodiscard]] FirstHit hit(int lane) const;
@@ -95,7 +100,6 @@ class SheetShader {
   [[nodiscard]] CameraRay camera_ray_of(int lane) const;
 
  private:
-  int resolve();
   [[nodiscard]] LaneLamp lane_lamp(std::size_t light, int frame) const;
   void fill_strength(const Light& light, std::size_t index);
   void fill_diffuse(std::size_t light, int material, LaneReflection& reflection);

@@ -308,14 +308,39 @@ class SheetPainter {
 
   // The colours of the points gathered.
   void paint_points(const Effects& effects) {
-    if (shader_.shade(effects)) {
-      put_colours();
-      return;
-    }
     const PointSheet& p = work_.points;
-    for (int i = 0; i < p.count; ++i) {
-      const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
-      one_ray(sheet, p.lane[i] % sheet_size, shader_.hit(i));
+    if (!shader_.in_lanes()) {
+      for (int i = 0; i < p.count; ++i) {
+        const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
+        one_ray(sheet, p.lane[i] % sheet_size, shader_.hit(i));
+      }
+    } else if (shader_.resolve()) {
+      shader_.shade(effects);
+      put_colours();
+    } else {
+      paint_by_material(effects);
+    }
+  }
+
+  // Of points of several materials, those of each.
+  void paint_by_material(const Effects& effects) {
+    PointSheet& p = work_.points;
+    std::vector<std::pair<int, SheetScratch::Part>> parts;  // by material
+    for (int r = 0; r < p.run_count; ++r) {
+      for (int i = p.runs[r].first; i < p.runs[r].last; ++i) {
+        const std::uint64_t bit = std::uint64_t{1} << (p.lane[i] % sheet_size);
+        parts.push_back({p.material[i], {0, p.lane[i] / sheet_size, p.runs[r].surface, bit}});
+      }
+    }
+    std::ranges::stable_sort(parts, {}, [](const auto& part) { return part.first; });
+    for (auto part = parts.begin(); part != parts.end();) {
+      const int material = part->first;
+      p.count = 0;
+      for (; part != parts.end() && part->first == material; ++part) gather(part->second);
+      pad_points();
+      shader_.resolve();
+      shader_.shade(effects);
+      put_colours();
     }
   }
 

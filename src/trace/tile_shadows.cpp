@@ -82,7 +82,7 @@ bool SheetShader::wants_packets() const {
 }
 
 void SheetShader::collect() {
-  if (!sheets_.lit_in_lanes(entry_->frame) || resolve() < 0) return;
+  if (!in_lanes() || !resolve()) return;
   const std::vector<Light>& lights = tracer_.scene().lights;
   const int own = static_cast<int>(entry_ - sheets_.entries().data());
   for (std::size_t i = 0; i < lights.size(); ++i) {
