@@ -20,10 +20,9 @@ SurfaceKernels baseline_surface_kernels() {
 }
 
 const SurfaceKernels& surface_kernels(InstructionSet set) {
-  static const SurfaceKernels widest = kernels_of(InstructionSet::widest);
-  static const SurfaceKernels avx2 = kernels_of(InstructionSet::avx2);
-  static const SurfaceKernels baseline = kernels_of(InstructionSet::baseline);
-  return set == InstructionSet::widest ? widest : set == InstructionSet::avx2 ? avx2 : baseline;
+  static const SurfaceKernels kernels[] = {kernels_of(InstructionSet::widest), kernels_of(InstructionSet::avx2),
+                                           kernels_of(InstructionSet::baseline)};
+  return kernels[static_cast<int>(set)];  // in the order of the enumeration
 }
 
 }  // namespace backlight

@@ -162,9 +162,7 @@ void SurfaceSet::points(const RaySheet& sheet, int surface, int first, int last,
   double local[3][sheet_size];
   std::uint64_t left =
       surface_kernels(sheet.instructions).points(placed.lanes, sheet, first, last, hits, points, local);
-  for (int i = first; i < last; ++i) {
-    points.member[i] = 0;
-    if (!with_texture_coordinates) continue;
+  for (int i = first; i < last && with_texture_coordinates; ++i) {
     LocalPoint point{.position = {local[0][i], local[1][i], local[2][i]}};
     texture(placed.shape, hits.part_of(i), point);
     points.u[i] = point.u;

@@ -20,20 +20,6 @@ void put(const Vec3& a, double (&to)[3][sheet_size], int lane) {
   for (int k = 0; k < 3; ++k) to[k][lane] = a[k];
 }
 
-// What spare lanes are to be for the kernels: as the last point.
-void pad(PointSheet& p) {
-  const int last = p.count - 1;
-  for (int i = p.count; i < p.padded; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      p.points.position[k][i] = p.points.position[k][last];
-      p.points.normal[k][i] = p.points.normal[k][last];
-    }
-    p.points.error_bound[i] = p.points.error_bound[last];
-    p.own[i] = p.own[last];
-    p.own_inside[i] = p.own_inside[last];
-  }
-}
-
 }  // namespace
 
 LaneBrightness lane_brightness(const BrightnessSwitches& on) {
@@ -113,7 +99,8 @@ bool SheetShader::resolve() {
   const SurfaceSet& surfaces = sheets_.surfaces(*entry_);
   sheets_.kernels().in_frame(sheets_.eye(eye_).frames[frame()], p);
   for (int r = 0; r < p.run_count; ++r) {
-    const auto [number, first, last] = p.runs[r];
+    const auto [number, first, end] = p.runs[r];
+    const int last = end < p.count ? end : p.padded;  // spare lanes are as the last one
     const int surface = number - entry_->first_number, count = last - first;
     const Object& object = object_of(scene, entry_->frame, surface);
     const Material& own = scene.materials[static_cast<std::size_t>(object.material)];
@@ -123,11 +110,10 @@ bool SheetShader::resolve() {
     std::fill_n(p.own + first, count, surfaces.is_convex(surface) ? number : -1.0);
     std::fill_n(p.own_inside + first, count, surfaces.is_flat(surface) ? number : -1.0);
     std::fill_n(p.material + first, count, object.material);
-    for (int i = first; i < last && !members.empty(); ++i) {
+    for (int i = first; i < end && !members.empty(); ++i) {
       p.material[i] = members[static_cast<std::size_t>(p.points.member[i])];
     }
   }
-  pad(p);
   sheets_.kernels().face(p);
   return std::all_of(p.material, p.material + p.count, [&](int its) { return its == p.material[0]; });
 }

@@ -48,7 +48,7 @@ struct SheetPoints {
   alignas(64) double error_bound[sheet_size];
   alignas(64) double u[sheet_size];
   alignas(64) double v[sheet_size];
-  int member[sheet_size];
+  int member[sheet_size];  ///< not set where a surface has but one
 };
 
 }  // namespace backlight
