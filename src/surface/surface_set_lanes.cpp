@@ -161,7 +161,7 @@ void SurfaceSet::points(const RaySheet& sheet, int surface, int first, int last,
   }
   double local[3][sheet_size];
   std::uint64_t left =
-      surface_kernels(sheet.instructions).points(placed.lanes, sheet, first, last, hits, points, local);
+      surface_kernels(sheet.instructions).points(placed.lanes, sheet, first, last, hits, points, with_texture_coordinates ? local : nullptr);
   for (int i = first; i < last && with_texture_coordinates; ++i) {
     LocalPoint point{.position = {local[0][i], local[1][i], local[2][i]}};
     texture(placed.shape, hits.part_of(i), point);

@@ -63,10 +63,10 @@ class Walk {
     return active & ~open;
   }
 
-  /// The points of hits `first` to `last`, all on one surface that has a form; `local`: the same in its local
-  /// coordinates. Bits: those that are left to the law.
+  /// The points of hits `first` to `last`, all on one surface that has a form; `local`, if not null: the same in
+  /// its local coordinates. Bits: those that are left to the law.
   static std::uint64_t points(const LaneSurface& surface, const RaySheet& rays, int first, int last,
-                              const SheetHits& hits, SheetPoints& out, double (&local)[3][sheet_size]) {
+                              const SheetHits& hits, SheetPoints& out, double (*local)[sheet_size]) {
     std::uint64_t left = 0;
     const auto use = [&](auto form) __attribute__((always_inline)) {
       left = points_by<decltype(form)>(surface, rays, first, last, hits, out, local);
@@ -93,17 +93,6 @@ class Walk {
     return load3<V>(rays.origin, i);
   }
 
-  static double least_of(V a) {
-    double least = lane(a, 0);
-    for (int i = 1; i < N; ++i) least = lane(a, i) < least ? lane(a, i) : least;
-    return least;
-  }
-  static double most_of(V a) { return -least_of(-a); }
-  static BACKLIGHT_LANES double lane(V a, int i) {
-    if constexpr (N == 1) return a.v;
-    else return a.v[i];
-  }
-
   /// The pyramid around some rays: from a box of origins, along one axis of the frame, between two slopes
   /// along either of the others.
   class Pyramid {
@@ -111,18 +100,22 @@ class Walk {
     /// Of rays that go as far as `lambda` says of each. False: they do not all go the same way along the axis
     /// that the first one goes along.
     bool make(const RaySheet& rays, std::uint64_t active, const double* lambda) {
-      const Box origins = rays.one_origin ? Box(rays) : Box(rays, active, 0.0);
+      Box origins, same;
+      if (rays.one_origin) {
+        for (int k = 0; k < 3; ++k) origins.set(k, rays.origin[k][0], rays.origin[k][0], 0.0);
+      } else {
+        set_boxes(rays, active, 0.0, origins, same);
+      }
       return make(origins, 1.0, rays, active, lambda, infinity);
     }
 
     /// Of segments that end at lambda_max: it begins where their starts are or, if these are nearer to one
     /// another, at their ends. (The light of a lamp comes from a point, or from few.)
     bool make(const RaySheet& rays, std::uint64_t active, double lambda_max) {
-      const Box starts(rays, active, 0.0);
-      if (!(lambda_max < infinity)) return make(starts, 1.0, rays, active, nullptr, lambda_max);
-      Box ends(rays, active, lambda_max);
-      ends.widen(starts);  // they are sums of numbers as large as these
-      const bool back = ends.size() < starts.size();
+      Box starts, ends;
+      const bool finite = lambda_max < infinity;
+      set_boxes(rays, active, finite ? lambda_max : 0.0, starts, ends);
+      const bool back = finite && ends.size() < starts.size();
       return make(back ? ends : starts, back ? -1.0 : 1.0, rays, active, nullptr, lambda_max);
     }
 
@@ -160,53 +153,39 @@ class Walk {
     }
 
    private:
-    /// Around some points of the rays, with room for the rounding of differences from them.
     struct Box {
       double low[3], high[3];
 
-      explicit Box(const RaySheet& rays) {
-        for (int k = 0; k < 3; ++k) set(k, rays.origin[k][0], rays.origin[k][0]);
-      }
-      Box(const RaySheet& rays, std::uint64_t active, double lambda) {
-        V3 least{V(infinity), V(infinity), V(infinity)}, most = -least;
-        for (int i = 0; i < rays.padded; i += N) {
-          const unsigned lanes = lanes_of(active, i);
-          if (lanes == 0) continue;
-          const V3 p = origin_of(rays, i) + V(lambda) * load3<V>(rays.direction, i);
-          include(lanes, p.x, least.x, most.x);
-          include(lanes, p.y, least.y, most.y);
-          include(lanes, p.z, least.z, most.z);
-        }
-        set(0, least_of(least.x), most_of(most.x));
-        set(1, least_of(least.y), most_of(most.y));
-        set(2, least_of(least.z), most_of(most.z));
+      /// With room for the rounding of differences from it, and of sums of numbers as large as `terms`.
+      void set(int k, double least, double most, double terms) {
+        const double room = 2e-15 * ((least < 0.0 ? -least : least) + (most < 0.0 ? -most : most) + terms);
+        low[k] = least - room;
+        high[k] = most + room;
       }
       [[nodiscard]] double size() const {
         return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]);
       }
-
-      void widen(const Box& other) {
-        for (int k = 0; k < 3; ++k) {
-          const double room = room_for(other.low[k], other.high[k]);
-          low[k] -= room;
-          high[k] += room;
-        }
-      }
-
-     private:
-      static double room_for(double a, double b) {
-        return 2e-15 * ((a < 0.0 ? -a : a) + (b < 0.0 ? -b : b));
-      }
-      static BACKLIGHT_LANES void include(unsigned lanes, V p, V& least, V& most) {
-        least = smaller(least, pick(lanes, p, least));
-        most = larger(most, pick(lanes, p, most));
-      }
-      void set(int k, double least, double most) {
-        const double room = room_for(least, most);
-        low[k] = least - room;
-        high[k] = most + room;
-      }
     };
+
+    /// Around the starts of rays, and around where they are at `lambda`.
+    static void set_boxes(const RaySheet& rays, std::uint64_t active, double lambda, Box& starts, Box& ends) {
+      for (int k = 0; k < 3; ++k) {
+        V least[2] = {V(infinity), V(infinity)}, most[2] = {V(-infinity), V(-infinity)};
+        for (int i = 0; i < rays.padded; i += N) {
+          const unsigned lanes = lanes_of(active, i);
+          if (lanes == 0) continue;
+          const V start = rays.one_origin ? V(rays.origin[k][0]) : V::load(rays.origin[k] + i);
+          const V end = start + V(lambda) * V::load(rays.direction[k] + i);
+          least[0] = smaller(least[0], pick(lanes, start, least[0]));
+          most[0] = larger(most[0], pick(lanes, start, most[0]));
+          least[1] = smaller(least[1], pick(lanes, end, least[1]));
+          most[1] = larger(most[1], pick(lanes, end, most[1]));
+        }
+        const double low = least_of(least[0]), high = most_of(most[0]);
+        starts.set(k, low, high, 0.0);
+        ends.set(k, least_of(least[1]), most_of(most[1]), (low < 0.0 ? -low : low) + (high < 0.0 ? -high : high));
+      }
+    }
 
     /// `way`: 1, or -1 for rays backwards.
     bool make(const Box& origins, double way, const RaySheet& rays, std::uint64_t active, const double* lambda,
@@ -475,7 +454,7 @@ class Walk {
 
   /// Stores the lanes of some rays, as the others are.
   static BACKLIGHT_LANES void put(unsigned lanes, V a, double* to) { pick(lanes, a, V::load(to)).store(to); }
-  static BACKLIGHT_LANES void put(unsigned lanes, V3 a, double (&to)[3][sheet_size], int i) {
+  static BACKLIGHT_LANES void put(unsigned lanes, V3 a, double (*to)[sheet_size], int i) {
     put(lanes, a.x, to[0] + i);
     put(lanes, a.y, to[1] + i);
     put(lanes, a.z, to[2] + i);
@@ -484,7 +463,7 @@ class Walk {
   template <class Form>
   static BACKLIGHT_LANES std::uint64_t points_by(const LaneSurface& surface, const RaySheet& rays, int first,
                                                  int last, const SheetHits& hits, SheetPoints& out,
-                                                 double (&local)[3][sheet_size]) {
+                                                 double (*local)[sheet_size]) {
     std::uint64_t left = 0;
     const std::uint64_t wanted =
         (last < 64 ? (std::uint64_t{1} << last) - 1 : ~std::uint64_t{0}) & (~std::uint64_t{0} << first);
@@ -500,7 +479,7 @@ class Walk {
       }
       const LaneLocalPoint<V> point = Form::point(surface.values, line.at(along), V::load(hits.part + i));
       const LanePoint<V> placed = in_rest_frame(surface, point, Form::unit_gradient);
-      put(lanes, point.position, local, i);
+      if (local != nullptr) put(lanes, point.position, local, i);
       put(lanes, placed.position, out.position, i);
       put(lanes, placed.normal, out.normal, i);
       put(lanes, placed.error_bound, out.error_bound + i);

@@ -74,12 +74,6 @@ struct KernelsOf {
     for (int i = 0; i < N; ++i) sum += a.v[i];
     return sum;
   }
-  static double least_of(V a) {
-    double least = a.v[0];
-    for (int i = 1; i < N; ++i) least = a.v[i] < least ? a.v[i] : least;
-    return least;
-  }
-
   static void set_angle(Bundle& bundle, double cosine) {
     // Room for the rounding of the dot products, and of the axis's length.
     const double c = cosine - 1e-14 < -1.0 ? -1.0 : cosine - 1e-14;
@@ -329,8 +323,8 @@ struct KernelsOf {
     span.sum[2] += sum_of(sum.z);
     span.least_cosine = least_of(least);
     span.begin = least_of(first);
-    span.end = -least_of(-last);
-    span.reach = -least_of(-reach);
+    span.end = most_of(last);
+    span.reach = most_of(reach);
   }
 
   static std::uint64_t same(const SheetHits& hits, int count, double who) {
@@ -466,9 +460,9 @@ struct KernelsOf {
     if (!any) return false;
     const double s[3] = {sum_of(sum.x), sum_of(sum.y), sum_of(sum.z)};
     const double size = __builtin_sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-    const double begin = least_of(first), end = -least_of(-last);
+    const double begin = least_of(first), end = most_of(last);
     bundle = Bundle{};
-    bundle.reach = -least_of(-reach);
+    bundle.reach = most_of(reach);
     bundle.time = 0.5 * (begin + end);
     const double larger = end > -begin ? end : -begin;
     bundle.half_time = 0.5 * (end - begin) + 1e-14 * (larger > 0.0 ? larger : -larger);

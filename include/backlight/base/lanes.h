@@ -223,6 +223,26 @@ BACKLIGHT_LANES V magnitude(V a) {
   return larger(a, -a);
 }
 
+/// The least and the largest of all lanes; not to be asked of what is not a number.
+template <int N>
+BACKLIGHT_LANES double least_of(Lanes<N> a) {
+  if constexpr (N == 1) {
+    return a.v;
+  } else if constexpr (N == 2) {
+    return a.v[0] < a.v[1] ? a.v[0] : a.v[1];
+  } else if constexpr (N == 4) {
+    return least_of(smaller(Lanes<2>(__builtin_shufflevector(a.v, a.v, 0, 1)),
+                            Lanes<2>(__builtin_shufflevector(a.v, a.v, 2, 3))));
+  } else {
+    return least_of(smaller(Lanes<4>(__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3)),
+                            Lanes<4>(__builtin_shufflevector(a.v, a.v, 4, 5, 6, 7))));
+  }
+}
+template <int N>
+BACKLIGHT_LANES double most_of(Lanes<N> a) {
+  return -least_of(-a);
+}
+
 /// Three coordinates of N things.
 template <class V>
 struct LaneVec3 {
