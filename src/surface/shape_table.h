@@ -38,10 +38,11 @@ struct Crossings {
 /// together. `all`: the whole line; they may differ from the first ones by rounding.
 enum class Wanted { first, all };
 
-/// The first crossing of a line, at t, of the face 0; infinity: there is none.
+/// The first crossing of a line, at t; infinity: there is none.
 struct FirstOnLine {
   double t = std::numeric_limits<double>::infinity();
   bool unresolved = false;
+  int part = 0;
 };
 
 /// A point put onto the surface, in local coordinates. The gradient points outward and has any length.
@@ -106,6 +107,10 @@ inline const ShapeMethods& methods(const Shape& shape) {
 inline Crossings crossings(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
   return methods(shape).crossings(shape, line, lambda_min, wanted);
 }
+
+// The methods `crossings` (the first one) and `point` of shapes that have `first_crossings` and `points`.
+Crossings crossings_of_one(const Shape& shape, const LocalLine& line, double lambda_min, Wanted);
+LocalPoint point_of_one(const Shape& shape, const LocalLine& line, const Crossing& crossing);
 
 extern const ShapeMethods sphere_methods, box_methods, cylinder_methods, cone_methods, torus_methods,
     disk_methods, plane_methods, quadric_methods, csg_methods, implicit_methods;

@@ -55,7 +55,7 @@ void SurfaceSet::first_crossings_of(int surface, const Rays& rays, std::span<Hit
       const FirstOnLine& its = found[i];
       const double lambda = lines.lambda(i, its.t);
       const bool hit = lambda > 0.0 && lambda < infinite;
-      hits[first + i] = hit ? Hit{lambda, surface, 0, its.unresolved, its.t} : Hit{};
+      hits[first + i] = hit ? Hit{lambda, surface, its.part, its.unresolved, its.t} : Hit{};
     }
   }
 }
