@@ -94,7 +94,8 @@ class PolynomialKernel {
     }
   }
 
-  /// The true place is origin + (from + half) direction + half direction ε.
+  /// The true place is origin + (from + half) direction + half direction ε. Two roundings of it by which
+  /// from + half (1 + ε) is computed are allowed for, too: by |from + half| + 5 half.
   BACKLIGHT_LANES void variable(std::uint32_t index, double* out) {
     const V origin = V::load(work_.origin[index] + k_);
     const V direction = V::load(work_.direction[index] + k_);
@@ -104,7 +105,8 @@ class PolynomialKernel {
     put(out, 0, centre);
     put(out, 1, slope);
     put(out, error_of,
-        V(unit) * ((V(2.0) * magnitude(along) + magnitude(centre)) + magnitude(slope)) + V(least_number));
+        V(unit) * ((V(3.0) * magnitude(along) + magnitude(centre)) + V(6.0) * magnitude(slope)) +
+            V(least_number));
   }
 
   static BACKLIGHT_LANES void shift(const double* a, int p, V by, double* out) {

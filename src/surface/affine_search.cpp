@@ -1,17 +1,18 @@
-#include "affine_search.h"
+// The search for the first roots along many lines by reduced affine forms (expression/affine.h).
+//
+// A form over a piece of the line says where in it zeros can be, and the sign of f before and behind. So most
+// pieces are left behind whole or for the greatest part without looking at any point, and a simple root is
+// enclosed closer and closer. Whether it is one, bounds on the slope say, over the little that is left.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "newton_bracket.h"
+#include "root_searches.h"
 
 namespace backlight {
 namespace {
-
-constexpr std::size_t variables = ImplicitFormula::variables;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// How many lines are searched side by side.
 constexpr std::size_t window = 64;
@@ -27,11 +28,6 @@ constexpr double close_part = 0.5;
 
 /// A line on which f has no form over this part of it is RootWalk's.
 constexpr double coarsest = 0x1p-7;
-
-/// The sign of all numbers in the interval, or 0.
-int sign_of(double lower, double upper) {
-  return lower > 0.0 ? 1 : upper < 0.0 ? -1 : 0;
-}
 
 /// A line on its way: everything before `begin` is without roots.
 struct Traveller {
@@ -60,8 +56,8 @@ struct Memory {
   std::vector<Traveller> waiting;
   std::vector<Bracket> brackets;
   std::vector<Bracket> settling;
-  std::vector<NewtonBracket> newton;  ///< of those
   std::vector<Bracket> undecided;
+  std::vector<Settling> enclosed;  ///< roots
 };
 
 Memory& memory_of_thread() {
@@ -73,8 +69,7 @@ class FormSearch {
  public:
   FormSearch(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
              RootsWanted wanted, RootWork& work)
-      : f_(f),
-        program_(f.program()),
+      : program_(f.program()),
         pieces_(pieces),
         roots_(roots),
         wanted_(wanted),
@@ -86,39 +81,30 @@ class FormSearch {
     m_.on_the_way.clear();
     m_.waiting.clear();
     m_.brackets.clear();
+    m_.enclosed.clear();
     while (true) {
       while (m_.on_the_way.size() < window && start_next(m_.on_the_way.size())) {
       }
-      if (m_.on_the_way.empty() && m_.brackets.empty()) return;
+      if (m_.on_the_way.empty() && m_.brackets.empty()) break;
       if (m_.on_the_way.empty() || m_.brackets.size() >= window) {
         settle();
         continue;
       }
       march();
     }
+    if (wanted_ == RootsWanted::places) settle_roots(program_, pieces_, m_.enclosed, roots_, work_);
   }
 
  private:
   void put_on(LineBatch& batch, std::size_t slot, const Traveller& line) {
     const LinePiece& piece = pieces_[line.piece];
-    for (std::size_t v = 0; v < variables; ++v) {
-      batch.origin(v)[slot] = piece.origin[v];
-      batch.direction(v)[slot] = piece.direction[v];
-    }
-    batch.from()[slot] = line.begin;
-    batch.to()[slot] = line.end;
+    batch.put(slot, piece.origin, piece.direction, line.begin, line.end);
   }
 
   [[nodiscard]] Traveller traveller(std::size_t i) const {
     const LinePiece& piece = pieces_[i];
-    double size = std::max(std::abs(piece.from), std::abs(piece.to));
-    for (std::size_t v = 0; v < 3; ++v) size = std::max(size, std::abs(piece.origin[v]));
-    return {i,
-            piece.from,
-            piece.from + first_part * (piece.to - piece.from),
-            piece.to,
-            16.0 * epsilon * size,
-            coarsest * (piece.to - piece.from)};
+    return {i,        piece.from,          piece.from + first_part * (piece.to - piece.from),
+            piece.to, least_length(piece), coarsest * (piece.to - piece.from)};
   }
 
   /// Puts the next line that there is into a slot.
@@ -132,7 +118,7 @@ class FormSearch {
         if (next_ == pieces_.size()) return false;
         line = traveller(next_++);
         roots_[line.piece] = no_root();
-        if (line.begin == line.limit) walk(line.piece);
+        if (line.begin == line.limit) give_up(line.piece);
       } while (!(line.begin < line.limit));
     }
     put_on(m_.march, slot, line);
@@ -144,9 +130,9 @@ class FormSearch {
     return true;
   }
 
-  /// Leaves the line to RootWalk; false, as it needs no more forms.
-  bool walk(std::size_t i) {
-    roots_[i] = walked_root(f_, pieces_[i], work_);
+  /// False, as the line needs no more forms.
+  bool give_up(std::size_t i) {
+    roots_[i] = given_up();
     return false;
   }
 
@@ -187,11 +173,11 @@ class FormSearch {
     if (zeros.first > zeros.last && zeros.continuity == 0.0 && ++line.steps <= most_steps_) {
       return advance(line, line.end, growth * length);
     }
-    if (line.steps > most_steps_ || ++line.steps > most_steps_) return walk(line.piece);
+    if (line.steps > most_steps_ || ++line.steps > most_steps_) return give_up(line.piece);
     if (zeros.continuity != 0.0) {
       ++work_.without_form;
       // There may be a form of half the piece.
-      return length > line.coarse ? shorten(line, line.begin, 0.5 * length) : walk(line.piece);
+      return length > line.coarse ? shorten(line, line.begin, 0.5 * length) : give_up(line.piece);
     }
     if (!(zeros.last < line.end)) {
       const double left = zeros.first - line.begin;
@@ -199,8 +185,10 @@ class FormSearch {
     }
     const double room = zeros.last - zeros.first;
     if (room > close_part * length) return shorten(line, zeros.first, 0.5 * room);
-    const int sign_before = zeros.sign > 0.0 ? 1 : -1;
-    Bracket bracket{line, zeros.first > line.begin ? sign_before : 0, -sign_before, line.end, length};
+    const int sign = zeros.sign > 0.0 ? 1 : -1;
+    const LinePiece& piece = pieces_[line.piece];
+    const int sign_at_begin = line.begin == piece.from ? piece.sign : 0;
+    Bracket bracket{line, zeros.first > line.begin ? sign : sign_at_begin, -sign, line.end, length};
     bracket.line.begin = zeros.first;
     bracket.line.end = zeros.last;
     m_.brackets.push_back(bracket);
@@ -215,7 +203,7 @@ class FormSearch {
   }
 
   bool shorten(Traveller& line, double begin, double length) {
-    return length > line.least ? advance(line, begin, length) : walk(line.piece);
+    return length > line.least ? advance(line, begin, length) : give_up(line.piece);
   }
 
   void wait(Traveller line, double begin, double length) {
@@ -255,11 +243,11 @@ class FormSearch {
   void find_signs() {
     m_.undecided.clear();
     std::size_t kept = 0;
-    for (const Bracket& b : m_.settling) {
+    for (Bracket& b : m_.settling) {
       if (b.sign_before == 0) {
         put_on(m_.settle, m_.undecided.size(), b.line);
         m_.undecided.push_back(b);
-      } else {
+      } else if (has_root(b)) {
         m_.settling[kept++] = b;
       }
     }
@@ -268,51 +256,31 @@ class FormSearch {
     work_.points += m_.undecided.size();
     for (std::size_t k = 0; k < m_.undecided.size(); ++k) {
       Bracket& b = m_.undecided[k];
-      b.sign_before = sign_of(m_.settle.lower()[k], m_.settle.upper()[k]);
-      if (b.sign_before == 0 || m_.settle.continuity()[k] != 0.0) {
-        walk(b.line.piece);
-      } else if (b.sign_before == b.sign_after) {
-        if (advance(b.line, b.end, growth * b.length)) m_.waiting.push_back(b.line);
-      } else {
+      b.sign_before = m_.settle.certain_sign(k);
+      if (b.sign_before == 0) {
+        give_up(b.line.piece);
+      } else if (has_root(b)) {
         m_.settling.push_back(b);
       }
     }
   }
 
+  /// Whether there is a root in a bracket over which f is monotone; else the line goes on behind it.
+  bool has_root(Bracket& b) {
+    if (b.sign_before != b.sign_after) return true;
+    if (advance(b.line, b.end, growth * b.length)) m_.waiting.push_back(b.line);
+    return false;
+  }
+
   void find_roots() {
-    m_.newton.clear();
-    for (std::size_t k = 0; k < m_.settling.size(); ++k) {
-      const Bracket& b = m_.settling[k];
+    for (const Bracket& b : m_.settling) {
       const double middle = 0.5 * b.line.begin + 0.5 * b.line.end;
       roots_[b.line.piece] = {middle,       RootKind::crossing, b.sign_before,
                               b.sign_after, b.line.begin,       b.line.end};
-      put_on(m_.settle, k, b.line);
-      m_.settle.from()[k] = middle;
-      m_.newton.push_back({b.line.begin, b.line.end, b.sign_before > 0, b.line.least});
-    }
-    if (wanted_ == RootsWanted::existence) m_.settling.clear();
-    while (!m_.settling.empty()) {
-      const std::size_t count = m_.settling.size();
-      program_.numbers(m_.settle, count, m_.workspace);
-      work_.polish += count;
-      for (std::size_t k = count; k-- > 0;) {
-        double& t = m_.settle.from()[k];
-        const bool settled = m_.newton[k].improve(t, m_.settle.value()[k], m_.settle.slope()[k]);
-        roots_[m_.settling[k].line.piece].t = t;
-        if (!settled) continue;
-        const double at = m_.settle.from()[m_.settling.size() - 1];
-        m_.settling[k] = m_.settling.back();
-        m_.settling.pop_back();
-        m_.newton[k] = m_.newton.back();
-        m_.newton.pop_back();
-        if (k == m_.settling.size()) continue;
-        put_on(m_.settle, k, m_.settling[k].line);
-        m_.settle.from()[k] = at;
-      }
+      m_.enclosed.push_back({b.line.piece});
     }
   }
 
-  const ImplicitFormula& f_;
   const LineProgram& program_;
   std::span<const LinePiece> pieces_;
   std::span<Root> roots_;
@@ -325,8 +293,8 @@ class FormSearch {
 
 }  // namespace
 
-void first_roots_by_forms(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
-                          RootsWanted wanted, RootWork& work) {
+void search_by_forms(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
+                     RootsWanted wanted, RootWork& work) {
   FormSearch(f, pieces, roots, wanted, work).run();
 }
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "csg_sheet.h"
 #include "csg_solid.h"
-#include "csg_sweep.h"
 #include "shape_table.h"
 #include "surface_point.h"
 
@@ -19,12 +19,6 @@ namespace {
 constexpr int parts_of_leaf = 8;
 constexpr int is_turned = parts_of_leaf;
 constexpr int codes_of_leaf = 2 * parts_of_leaf;
-
-// Sizes settle after the first few lines; from then on nothing is allocated.
-Sweep::Scratch& scratch_of_thread() {
-  thread_local Sweep::Scratch scratch;
-  return scratch;
-}
 
 std::string problem_of(const Shape& shape) {
   return shape.solid ? std::string{} : std::string("an operation on solids needs at least one part");
@@ -42,15 +36,24 @@ double half_extent(const Shape& shape, const Extent& e) {
   return glm::dot(glm::max(glm::abs(box.lo), glm::abs(box.hi)), Vec3{e.x, e.y, e.z});
 }
 
-Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted /*wanted*/) {
-  Crossings result;
-  Sweep sweep(*shape.solid, line, parameter_of(line, lambda_min), scratch_of_thread());
-  for (Sweep::Event event; result.count == 0 && sweep.next(event);) {
-    if (!(line.lambda(event.t) > lambda_min)) continue;
+void first_crossings_of(const Shape& shape, const LocalLines& lines, double lambda_min,
+                        std::span<FirstOnLine> results) {
+  Sweep::Event first[LocalLines::most];
+  first_of_solid(*shape.solid, lines, lambda_min, {first, lines.count});
+  for (std::size_t i = 0; i < lines.count; ++i) {
+    const Sweep::Event& event = first[i];
+    results[i] = {};
+    if (!(event.t < infinite)) continue;
     const int code = event.leaf * codes_of_leaf + (event.turned ? is_turned : 0) + event.crossing.part;
-    result.list[result.count++] = {event.t, code, event.crossing.unresolved};
+    results[i] = {event.t, event.crossing.unresolved, code};
   }
-  return result;
+}
+
+void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, double lambda_max,
+            std::span<bool> results) {
+  FirstOnLine first[LocalLines::most];
+  first_crossings_of(shape, lines, lambda_min, {first, lines.count});
+  for (std::size_t i = 0; i < lines.count; ++i) results[i] = lines.lambda(i, first[i].t) < lambda_max;
 }
 
 /// The crossing of a leaf that is at t along its line or, as rounding goes, next to it. That of a formula is
@@ -64,22 +67,70 @@ Crossing crossing_at(const PlacedSurface& leaf, const LocalLine& line, const Cro
   return nearest == found.list + found.count ? near : *nearest;
 }
 
-LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
-  const Solid::Leaf& leaf = shape.solid->leaves()[static_cast<std::size_t>(crossing.part / codes_of_leaf)];
-  const LocalLine part = local_line({line.point, line.direction, line.clock}, leaf.surface);
-  const SurfacePoint point = surface_point(
-      leaf.surface, part,
-      crossing_at(leaf.surface, part,
-                  {parameter_of(part, crossing.t), crossing.part % parts_of_leaf, crossing.unresolved}));
+/// The crossings of one leaf, each on a line of its own.
+struct OnLeaf {
+  std::size_t index[LocalLines::most];  ///< among those of the whole
+  LocalLines lines;
+  Crossing crossings[LocalLines::most];
+  LocalPoint points[LocalLines::most];
+
+  void add(std::size_t i, const LocalLine& line, const Crossing& crossing) {
+    index[lines.count] = i;
+    crossings[lines.count] = crossing;
+    lines.add(line);
+  }
+};
+
+void find_points(const PlacedSurface& leaf, TextureCoordinates wanted, OnLeaf& on) {
+  const std::size_t count = on.lines.count;
+  if (const auto many = methods(leaf.shape).points; many != nullptr) {
+    return many(leaf.shape, on.lines, {on.crossings, count}, wanted, {on.points, count});
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const LocalLine line = on.lines.line(k);
+    on.points[k] = methods(leaf.shape).point(leaf.shape, line, crossing_at(leaf, line, on.crossings[k]));
+    if (wanted == TextureCoordinates::unwanted) on.points[k].u = on.points[k].v = 0.0;
+  }
+}
+
+/// A leaf's point as one of the whole.
+LocalPoint of_whole(const Solid::Leaf& leaf, const LocalPoint& of_leaf, bool turned) {
+  const SurfacePoint point = surface_point(leaf.surface, of_leaf);
   LocalPoint result;
   result.position = point.position;
-  const bool turned = (crossing.part & is_turned) != 0;
   result.gradient = leaf.subtracted != turned ? -point.normal : point.normal;
   result.u = point.u;
   result.v = point.v;
   result.error = point.error_bound;
   result.member = leaf.surface.shape.blend ? point.member : leaf.member;
   return result;
+}
+
+/// Leaf by leaf.
+void points_of(const Shape& shape, const LocalLines& lines, std::span<const Crossing> crossings,
+               TextureCoordinates wanted, std::span<LocalPoint> points) {
+  const auto leaf_of = [&](std::size_t i) { return crossings[i].part / codes_of_leaf; };
+  bool done[LocalLines::most]{};
+  OnLeaf on;
+  for (std::size_t first = 0; first < lines.count; ++first) {
+    if (done[first]) continue;
+    const Solid::Leaf& leaf = shape.solid->leaves()[static_cast<std::size_t>(leaf_of(first))];
+    on.lines.count = 0;
+    for (std::size_t i = first; i < lines.count; ++i) {
+      if (done[i] || leaf_of(i) != leaf_of(first)) continue;
+      done[i] = true;
+      const LocalLine line = lines.line(i);
+      const LocalLine part = local_line({line.point, line.direction, line.clock}, leaf.surface);
+      on.add(
+          i, part,
+          {parameter_of(part, crossings[i].t), crossings[i].part % parts_of_leaf, crossings[i].unresolved});
+    }
+    find_points(leaf.surface, wanted, on);
+    for (std::size_t k = 0; k < on.lines.count; ++k) {
+      const std::size_t i = on.index[k];
+      points[i] = of_whole(leaf, on.points[k], (crossings[i].part & is_turned) != 0);
+    }
+  }
 }
 
 RootFinder finder_of(const Shape& /*shape*/) {
@@ -94,9 +145,13 @@ const ShapeMethods csg_methods{.kind = ShapeKind::csg,
                                .problem = problem_of,
                                .bounding_radius = bounding_radius,
                                .half_extent = half_extent,
-                               .crossings = crossings_of,
-                               .point = point_of,
-                               .finder = finder_of};
+                               .crossings = crossings_of_one,
+                               .point = point_of_one,
+                               .begin_walk = nullptr,
+                               .first_crossings = first_crossings_of,
+                               .finder = finder_of,
+                               .points = points_of,
+                               .blocks = blocks};
 
 Shape csg(const SolidTree& tree) {
   Shape shape;

@@ -15,8 +15,8 @@ bool is_solid_beyond(const Shape& shape) {
   return methods(shape).begin_walk == nullptr && crossings(shape, line, -infinite, Wanted::all).inside_before;
 }
 
-AxisBox box_of(const PlacedSurface& surface) {
-  if (std::isfinite(surface.radius()) && !is_solid_beyond(surface.shape)) return axis_box(surface);
+AxisBox box_of(const Solid::Leaf& leaf) {
+  if (std::isfinite(leaf.reach)) return axis_box(leaf.surface);
   AxisBox everything;
   everything.lo = Vec3{-infinite};
   everything.hi = Vec3{infinite};
@@ -60,8 +60,10 @@ Solid::Solid(const SolidTree& tree) {
 AxisBox Solid::add(const SolidTree& tree, const Placement& outer, int parent, bool first, bool subtracted) {
   const Placement placement = outer.around(tree.placement);
   if (tree.parts.empty()) {
-    leaves_.push_back({place(tree.shape, placement), parent, first, subtracted, tree.member});
-    return box_of(leaves_.back().surface);
+    const PlacedSurface surface = place(tree.shape, placement);
+    const double reach = is_solid_beyond(tree.shape) ? infinite : surface.radius();
+    leaves_.push_back({surface, reach, parent, first, subtracted, tree.member});
+    return box_of(leaves_.back());
   }
   const int node = static_cast<int>(nodes_.size());
   nodes_.push_back({tree.operation, parent, first, static_cast<int>(tree.parts.size())});

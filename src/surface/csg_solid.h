@@ -19,6 +19,7 @@ class Solid {
   };
   struct Leaf {
     PlacedSurface surface;  ///< placed within the whole
+    double reach;           ///< outside of this sphere about its position nothing is inside; may be infinite
     int parent;
     bool first;
     bool subtracted;  ///< an odd number of times: its outside is the inside of the whole

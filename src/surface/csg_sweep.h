@@ -10,9 +10,13 @@
 
 namespace backlight {
 
-/// Goes along the line of the whole, from the parameter `from` on. No part is asked before the line gets to
-/// its bounding sphere, none for more than its next crossing, and a formula only once it matters whether the
-/// line is inside it: what the answer does not depend on is not looked at.
+/// Goes along the line of the whole. No part is asked before the line gets to its bounding sphere, none for
+/// more than its next crossing, and a formula only once it matters whether the line is inside it: what the
+/// answer does not depend on is not looked at.
+///
+/// What formulas are asked is answered from outside, for many lines at once; then the line is gone along
+/// again, by the same steps, with what is known. A sweep is begun again for the next line: sizes settle after
+/// the first few, and from then on nothing is allocated.
 class Sweep {
  public:
   /// A crossing of one part, at t along the line of the whole.
@@ -25,45 +29,66 @@ class Sweep {
     /// of coincident faces, another one bounds the whole.
     bool turned = false;
   };
+  enum class Found : std::uint8_t { nothing, crossing, question };
 
-  /// What comes next of a leaf: an event, or its bounding sphere, when the leaf is not yet asked.
-  struct Next {
-    Event event;
-    bool asked;
-  };
+  void begin(const Solid& solid, const LocalLine& line, double lambda_min);
 
-  /// What a thread needs for one line; used again for the next.
-  struct Scratch {
-    std::vector<SolidWalk> walks;  ///< of each leaf
-    std::vector<Next> heap;        ///< the nearest on top
-    std::vector<int> put_off;      ///< formulas that did not matter when the line got to them
-    Insides insides;
-  };
+  /// The first crossing of the boundary of the whole beyond lambda_min; or what is asked has to be answered
+  /// first.
+  Found first(Event& crossing);
 
-  Sweep(const Solid& solid, const LocalLine& line, double from, Scratch& scratch);
-
-  /// The next crossing of the boundary of the whole; false: there are no more. Crossings before `from` may be
-  /// left out.
-  bool next(Event& crossing);
+  /// Of a question: what is asked, and of which leaf.
+  [[nodiscard]] SolidWalk& asked() { return asked_->walk; }
+  [[nodiscard]] int asked_leaf() const { return asked_->leaf; }
 
  private:
-  [[nodiscard]] const PlacedSurface& surface(int leaf) const;
-  void push(const Next& next);
-  void pop();
-  void reach(int leaf);
-  void ask(int leaf);
-  bool ask_what_matters();
-  void push_next(int leaf, const LocalLine& line, double from);
-  const Event* peek();
-  bool take(Event& event);
-  [[nodiscard]] bool coincide(const Event& a, const Event& b) const;
-  [[nodiscard]] SurfacePoint point(const Event& event) const;
+  /// A leaf whose bounding sphere the line meets, and what comes next of it.
+  struct Part {
+    enum class Next : std::uint8_t {
+      nothing,
+      bounds,   ///< its bounding sphere, at t: it is not asked yet
+      unknown,  ///< not before t
+      event
+    };
+    int leaf;
+    double meets;  ///< its bounding sphere, along the line of the whole
+    bool begun;    ///< its walk along its own line, from `from` on
+    LocalLine line;
+    double from;
+    SolidWalk walk;
+    Next next;
+    double t;
+    Event event;
+  };
 
-  const Solid& solid_;
-  const LocalLine& line_;
-  RestRay ray_;
-  double reached_;
-  Scratch& s_;
+  [[nodiscard]] const PlacedSurface& surface(int leaf) const;
+  [[nodiscard]] double margin_at(int leaf, double t) const;
+  bool next(Event& crossing);
+  Part* nearest(int but_leaf = -1);
+  Part* nearest_event();
+  bool look_at(Part& part);
+  void reach(Part& part);
+  void begin_walk(Part& part);
+  void ask(Part& part);
+  bool ask_what_matters();
+  void go_on(Part& part);
+  bool take(Event& event);
+  bool take_coincident(Event& event, Event& crossing);
+  [[nodiscard]] bool are_close(const Event& event, const Part& other) const;
+  [[nodiscard]] bool coincide(const Event& a, const Event& b);
+  [[nodiscard]] SurfacePoint point(const Event& event);
+  Part& part(int leaf);
+
+  const Solid* solid_ = nullptr;
+  LocalLine line_;
+  double lambda_min_ = 0.0;
+  double from_ = 0.0;
+  double reached_ = 0.0;
+  std::vector<Part> parts_;  // in the order of the leaves; `count_` of them
+  std::size_t count_ = 0;
+  std::vector<int> put_off_;  // formulas that did not matter when the line got to them
+  Insides insides_;
+  Part* asked_ = nullptr;
 };
 
 /// The parameter along a part's line of the point at t along that of the whole.

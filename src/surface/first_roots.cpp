@@ -1,16 +1,16 @@
 // The first roots of a formula along many lines: their searches side by side, the tape run once for all that
 // ask the same.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <span>
 
-#include "affine_search.h"
 #include "line_search.h"
-#include "polynomial_search.h"
+#include "newton_bracket.h"
+#include "root_searches.h"
 
 namespace backlight {
 namespace {
-
-constexpr std::size_t variables = ImplicitFormula::variables;
 
 /// How many lines are searched side by side.
 constexpr std::size_t window = 64;
@@ -23,6 +23,8 @@ struct Memory {
   std::vector<std::size_t> piece_of;  ///< for each search, the index of its piece
   std::vector<std::size_t> live;      ///< the searches that are not finished
   std::vector<std::size_t> asking;    ///< those that ask what is to be answered next
+  std::vector<Settling> settling;     ///< the roots that were enclosed
+  std::vector<NewtonBracket> newton;
 };
 
 Memory& memory_of_thread() {
@@ -34,8 +36,7 @@ class SideBySide {
  public:
   SideBySide(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
              RootsWanted wanted, RootWork& work)
-      : f_(f),
-        program_(f.program()),
+      : program_(f.program()),
         pieces_(pieces),
         roots_(roots),
         wanted_(wanted),
@@ -48,16 +49,17 @@ class SideBySide {
     m_.searches.clear();
     m_.piece_of.clear();
     m_.live.clear();
+    m_.settling.clear();
     for (std::size_t i = 0; i < next_; ++i) {
-      m_.searches.emplace_back(pieces_[i], most_pieces_, wanted_);
+      m_.searches.emplace_back(pieces_[i], most_pieces_);
       m_.piece_of.push_back(i);
       m_.live.push_back(i);
     }
     for (drop_finished(); !m_.live.empty(); drop_finished()) {
       answer_pieces();
       answer_points();
-      answer_numbers();
     }
+    if (wanted_ == RootsWanted::places) settle_roots(program_, pieces_, m_.settling, roots_, work_);
   }
 
  private:
@@ -71,7 +73,7 @@ class SideBySide {
       }
       report(m_.piece_of[i], m_.searches[i]);
       if (next_ < pieces_.size()) {
-        m_.searches[i] = LineSearch(pieces_[next_], most_pieces_, wanted_);
+        m_.searches[i] = LineSearch(pieces_[next_], most_pieces_);
         m_.piece_of[i] = next_++;
       } else {
         m_.live[k] = m_.live.back();
@@ -81,12 +83,8 @@ class SideBySide {
   }
 
   void report(std::size_t piece, const LineSearch& search) {
-    const LinePiece& p = pieces_[piece];
-    if (search.has_given_up()) {
-      roots_[piece] = walked_root(f_, p, work_);
-    } else {
-      roots_[piece] = search.has_root() ? search.root() : no_root();
-    }
+    if (search.has_root()) m_.settling.push_back({piece});
+    roots_[piece] = search.has_given_up() ? given_up() : search.has_root() ? search.root() : no_root();
   }
 
   /// Collects the searches that ask this, each with its line.
@@ -96,13 +94,8 @@ class SideBySide {
     for (const std::size_t i : m_.live) {
       const LineSearch& search = m_.searches[i];
       if (!asks(search)) continue;
-      const std::size_t k = m_.asking.size();
-      for (std::size_t v = 0; v < variables; ++v) {
-        m_.batch.origin(v)[k] = search.piece().origin[v];
-        m_.batch.direction(v)[k] = search.piece().direction[v];
-      }
-      m_.batch.from()[k] = from(search);
-      m_.batch.to()[k] = to(search);
+      const LinePiece& piece = search.piece();
+      m_.batch.put(m_.asking.size(), piece.origin, piece.direction, from(search), to(search));
       m_.asking.push_back(i);
     }
     return m_.asking.size();
@@ -131,17 +124,6 @@ class SideBySide {
     for (std::size_t k = 0; k < count; ++k) m_.searches[m_.asking[k]].point_is(value(k));
   }
 
-  void answer_numbers() {
-    const auto at = [](const LineSearch& s) { return s.point(); };
-    const std::size_t count = collect([](const LineSearch& s) { return s.asks_number(); }, at, at);
-    program_.numbers(m_.batch, count, m_.workspace);
-    work_.polish += count;
-    for (std::size_t k = 0; k < count; ++k) {
-      m_.searches[m_.asking[k]].number_is(m_.batch.value()[k], m_.batch.slope()[k]);
-    }
-  }
-
-  const ImplicitFormula& f_;
   const LineProgram& program_;
   std::span<const LinePiece> pieces_;
   std::span<Root> roots_;
@@ -152,37 +134,91 @@ class SideBySide {
   std::size_t next_ = 0;
 };
 
-}  // namespace
-
+/// The first root on a line that a search gave up.
 Root walked_root(const ImplicitFormula& f, const LinePiece& piece, RootWork& work) {
   ++work.given_up;
   if (work.only_count) return no_root();
-  RootWalk walk(f, piece, piece.from, piece.to);
+  RootWalk walk(f, piece);
   Root root;
   const bool any = walk.next(root);
   work.walked += walk.work().cells + walk.work().points + walk.work().polish;
   return any ? root : no_root();
 }
 
+}  // namespace
+
+void settle_roots(const LineProgram& program, std::span<const LinePiece> pieces,
+                  std::span<const Settling> some, std::span<Root> roots, RootWork& work) {
+  Memory& m = memory_of_thread();
+  const auto put = [&](std::size_t slot, std::size_t piece) {
+    const double t = roots[piece].t;
+    m.batch.put(slot, pieces[piece].origin, pieces[piece].direction, t, t);
+  };
+  for (std::size_t first = 0; first < some.size(); first += window) {
+    std::size_t count = std::min(window, some.size() - first);
+    m.newton.clear();
+    m.piece_of.clear();
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto& [i, bend] = some[first + k];
+      put(k, i);
+      m.piece_of.push_back(i);
+      m.newton.push_back(
+          {roots[i].lower, roots[i].upper, roots[i].sign_before > 0, least_length(pieces[i]), bend});
+    }
+    while (count > 0) {
+      program.numbers(m.batch, count, m.workspace);
+      work.polish += count;
+      std::size_t kept = 0;
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = m.piece_of[k];
+        if (m.newton[k].improve(roots[i].t, m.batch.value()[k], m.batch.slope()[k])) continue;
+        kept == k ? void(m.batch.from()[k] = roots[i].t) : put(kept, i);
+        m.newton[kept] = m.newton[k];
+        m.piece_of[kept++] = i;
+      }
+      count = kept;
+    }
+  }
+}
+
+double least_length(const LinePiece& piece) {
+  double size = std::max(std::abs(piece.from), std::abs(piece.to));
+  for (std::size_t v = 0; v < 3; ++v) size = std::max(size, std::abs(piece.origin[v]));
+  return 16.0 * std::numeric_limits<double>::epsilon() * size;
+}
+
+void search_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
+                  RootFinder finder, RootWork& work, RootsWanted wanted) {
+  if (finder == RootFinder::polynomial && f.program().degree()) {
+    search_polynomials(f, pieces, roots, wanted, work);
+  } else if (finder != RootFinder::interval) {
+    search_by_forms(f, pieces, roots, wanted, work);
+  } else {
+    SideBySide(f, pieces, roots, wanted, work).run();
+  }
+}
+
+void find_signs(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<int> signs) {
+  Memory& m = memory_of_thread();
+  for (std::size_t first = 0; first < pieces.size(); first += window) {
+    const std::size_t count = std::min(window, pieces.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      const LinePiece& piece = pieces[first + k];
+      m.batch.put(k, piece.origin, piece.direction, piece.from, piece.from);
+    }
+    f.program().enclose_points(m.batch, count, m.workspace);
+    for (std::size_t k = 0; k < count; ++k) signs[first + k] = m.batch.certain_sign(k);
+  }
+}
+
 void first_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
                  RootFinder finder, RootWork* work, RootsWanted wanted) {
   RootWork own;
   RootWork& sum = work != nullptr ? *work : own;
-  if (finder == RootFinder::polynomial && f.program().degree()) {
-    first_roots_of_polynomials(f, pieces, roots, wanted, sum);
-  } else if (finder != RootFinder::interval) {
-    first_roots_by_forms(f, pieces, roots, wanted, sum);
-  } else {
-    SideBySide(f, pieces, roots, wanted, sum).run();
+  search_roots(f, pieces, roots, finder, sum, wanted);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (is_given_up(roots[i])) roots[i] = walked_root(f, pieces[i], sum);
   }
-}
-
-Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to,
-                RootFinder finder) {
-  const LinePiece piece{line, from, to};
-  Root root;
-  first_roots(f, {&piece, 1}, {&root, 1}, finder);
-  return root;
 }
 
 }  // namespace backlight

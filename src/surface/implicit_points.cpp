@@ -114,16 +114,9 @@ class Batch {
   /// A line through each point, without a direction as yet.
   void place() {
     for (std::size_t k = 0; k < count_; ++k) {
-      for (int axis = 0; axis < 3; ++axis) {
-        lines().origin(static_cast<std::size_t>(axis))[k] = points_[k]->position[axis];
-      }
-      lines().origin(ImplicitFormula::t)[k] = times_[k];
+      const Vec3& p = points_[k]->position;
+      lines().put(k, {p.x, p.y, p.z, times_[k]}, {}, 0.0, 0.0);
     }
-    for (std::size_t v = 0; v < ImplicitFormula::variables; ++v) {
-      std::fill_n(lines().direction(v), count_, 0.0);
-    }
-    std::fill_n(lines().from(), count_, 0.0);
-    std::fill_n(lines().to(), count_, 0.0);
   }
 
   void find_gradients() {

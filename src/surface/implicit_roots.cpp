@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "backlight/expression/enclosure.h"
+#include "newton_bracket.h"
 #include "root_evidence.h"
 
 namespace backlight {
@@ -40,26 +41,25 @@ VariableLine variables_of(const FormulaLine& line) {
 
 }  // namespace
 
-RootWalk::RootWalk(const ImplicitFormula& f, const FormulaLine& line, double from, double to, Jumps jumps)
+RootWalk::RootWalk(const ImplicitFormula& f, const LinePiece& piece, Jumps jumps)
     : f_(f),
-      line_(line),
-      from_(from),
-      to_(to),
-      start_(from),
-      end_(to),
-      a_(from),
+      line_(piece),
+      start_(piece.from),
+      end_(piece.to),
+      a_(piece.from),
       step_(0.0),
       jumps_(jumps),
       cells_left_(most_cells) {
-  if (!(from <= to)) {
-    a_ = end_ = from;
+  if (!(line_.from <= line_.to)) {
+    a_ = end_ = line_.from;
     start_ = infinity;
     return;
   }
-  start_ = settle(from, -1);
-  end_ = settle(to, 1);
+  if (piece.sign == 0) start_ = settle(line_.from, -1);
+  end_ = settle(line_.to, 1);
   a_ = start_;
   at_a_ = at(a_);
+  if (piece.sign != 0 && at_a_.sign == 0) at_a_ = {piece.sign, 0.0};
   step_ = end_ - start_;
   jump_cell_ = std::min(RootEvidence(f_, line_).resolution_of_jumps(), widest_jump * step_);
   sign_at_start_ = at_a_.sign;
@@ -106,7 +106,7 @@ double RootWalk::smallest_cell(double from, double to) const {
 
 double RootWalk::settle(double s, int side) {
   if (!at(s).undetermined) return s;
-  double distance = smallest_cell(s, s) + epsilon * (to_ - from_);
+  double distance = smallest_cell(s, s) + epsilon * (line_.to - line_.from);
   for (int i = 0; i < 12; ++i, distance *= 8.0) {
     if (!at(s + side * distance).undetermined) return s + side * distance;
   }
@@ -140,7 +140,7 @@ bool RootWalk::report_zone(Root& root) {
     return wanted(root);
   }
   const auto face = [&](double at, int before, int after) {
-    return Root{std::clamp(at, from_, to_), RootKind::crossing, before, after, at, at};
+    return Root{std::clamp(at, line_.from, line_.to), RootKind::crossing, before, after, at, at};
   };
   const bool face_before = sign_before_zone_ != 0 && evidence.leaves_at_once(start, -1, end - start);
   const bool face_behind = sign_after_zone_ != 0 && evidence.leaves_at_once(end, 1, end - start);
@@ -149,7 +149,7 @@ bool RootWalk::report_zone(Root& root) {
     if (face_before && face_behind) hold(face(end, 0, sign_after_zone_));
     return wanted(root);
   }
-  root = {std::clamp(0.5 * (start + end), from_, to_),
+  root = {std::clamp(0.5 * (start + end), line_.from, line_.to),
           RootKind::unresolved,
           sign_before_zone_,
           sign_after_zone_,
@@ -182,36 +182,18 @@ bool RootWalk::changes_sign(double to) {
   return at_a_.sign * middle < 0 || at_a_.sign * at(to).sign < 0 || middle * at(to).sign < 0;
 }
 
-/// Newton's steps in double precision, inside a bracket that is halved whenever they do not do better.
 Root RootWalk::polished(double low, double high, int sign_low) const {
-  Root root{low, RootKind::crossing, sign_low, -sign_low, low, high};
+  Root root{0.5 * low + 0.5 * high, RootKind::crossing, sign_low, -sign_low, low, high};
+  NewtonBracket bracket{low, high, sign_low > 0, least_length(line_)};
   std::array<Dual, ImplicitFormula::variables> variables;
-  double t = low + 0.5 * (high - low);
-  double last_step = high - low;
-  for (int i = 0; i < 200; ++i) {
+  Dual f;
+  do {
     ++work_.polish;
     for (std::size_t k = 0; k < variables.size(); ++k) {
-      variables[k] = {line_.origin[k] + t * line_.direction[k], line_.direction[k]};
+      variables[k] = {line_.origin[k] + root.t * line_.direction[k], line_.direction[k]};
     }
-    const Dual f = f_.expression().evaluate(variables);
-    if (f.value == 0.0) break;
-    ((f.value < 0.0) == (sign_low < 0) ? low : high) = t;
-    double step = std::isinf(f.derivative) ? infinity : f.value / f.derivative;  // halved where there is none
-    double next = t - step;
-    if (!(next > low && next < high && 2.0 * std::abs(step) <= last_step)) {
-      if (std::abs(step) <= 0.25 * epsilon * std::abs(t)) break;
-      next = low + 0.5 * (high - low);
-      step = next - t;
-    }
-    if (next == t || next == low || next == high) {
-      t = next;
-      break;
-    }
-    last_step = std::abs(step);
-    t = next;
-    if (last_step <= 0.5 * epsilon * std::abs(t)) break;
-  }
-  root.t = t;
+    f = f_.expression().evaluate(variables);
+  } while (!bracket.improve(root.t, f.value, f.derivative));
   return root;
 }
 
@@ -300,7 +282,7 @@ bool RootWalk::next(Root& root) {
 
 /// A crossing was found behind a_.
 bool RootWalk::meet_crossing(Root& root) {
-  if (root.t < from_ || root.t > to_) {
+  if (root.t < line_.from || root.t > line_.to) {
     negative_ = root.sign_after < 0;
     return false;
   }
@@ -349,13 +331,6 @@ bool RootWalk::find(Root& root) {
     if (jumped(begin, root)) return true;
   }
   return in_zone_ && end_zone(root);
-}
-
-std::vector<Root> all_roots(const ImplicitFormula& f, const FormulaLine& line, double from, double to) {
-  std::vector<Root> roots;
-  Root root;
-  for (RootWalk walk(f, line, from, to); walk.next(root);) roots.push_back(root);
-  return roots;
 }
 
 }  // namespace backlight

@@ -1,6 +1,7 @@
 // The roots of a formula along a line, in order, with none missed and none invented (docs/implicit.md).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -45,18 +46,26 @@ struct Root {
   double upper = 0.0;
 };
 
-/// All roots in [from, to] in order.
-std::vector<Root> all_roots(const ImplicitFormula& f, const FormulaLine& line, double from, double to);
-
 /// A piece of a line: s from `from` to `to`.
 struct LinePiece : FormulaLine {
   double from = 0.0;
   double to = 0.0;
+  int sign = 0;  ///< of f at `from`; 0: not known
 };
+
+/// Pieces below this are not divided: a few roundings of the coordinates on the piece.
+double least_length(const LinePiece& piece);
 
 /// "None": t = infinity.
 inline Root no_root() {
   return {std::numeric_limits<double>::infinity()};
+}
+/// "Not found out": t is not a number.
+inline Root given_up() {
+  return {std::numeric_limits<double>::quiet_NaN()};
+}
+inline bool is_given_up(const Root& root) {
+  return std::isnan(root.t);
 }
 inline bool found(const Root& root) {
   return root.t < std::numeric_limits<double>::infinity();
@@ -81,17 +90,18 @@ struct RootWork {
 /// and the root may be another one than the first.
 enum class RootsWanted : std::uint8_t { places, existence };
 
-/// The first root on each piece, or no_root(). The lines are searched side by side, over lanes; what is found
-/// of one does not depend on the others (line_search.h).
+/// The first root on each piece, or no_root(), or given_up(), where RootWalk has to look. The lines are
+/// searched side by side, over lanes; what is found of one does not depend on the others (line_search.h). A
+/// root's enclosure ends where the sign behind it is certain: the search for the next one may begin there.
 /// `finder`: interval, affine, or, for a formula that has a LineProgram::degree(), polynomial. The work is
-/// added to `work`, if that is not null.
+/// added to `work`.
+void search_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
+                  RootFinder finder, RootWork& work, RootsWanted wanted = RootsWanted::places);
+
+/// The first root on each piece, or no_root(): search_roots(), and RootWalk where that gives up.
 void first_roots(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
                  RootFinder finder = RootFinder::interval, RootWork* work = nullptr,
                  RootsWanted wanted = RootsWanted::places);
-
-/// The same of one piece.
-Root first_root(const ImplicitFormula& f, const FormulaLine& line, double from, double to,
-                RootFinder finder = RootFinder::interval);
 
 /// Adds a root to what roots_solved_by_this_thread() says (surface/implicit_surface.h).
 void count_root_solved();
@@ -101,14 +111,10 @@ inline int most_pieces(const RootWork& work) {
   return work.only_count ? 200 : 2000;
 }
 
-/// The first root on a line that a search gave up, by RootWalk.
-Root walked_root(const ImplicitFormula& f, const LinePiece& piece, RootWork& work);
-
 /// Walks the roots one after the other: `next` finds the first one beyond those found before.
 class RootWalk {
  public:
-  RootWalk(const ImplicitFormula& f, const FormulaLine& line, double from, double to,
-           Jumps jumps = Jumps::ignore);
+  RootWalk(const ImplicitFormula& f, const LinePiece& piece, Jumps jumps = Jumps::ignore);
 
   /// False: there are no more.
   bool next(Root& root);
@@ -140,7 +146,9 @@ class RootWalk {
   void add_to_zone(double to, const PointValue& there, bool core);
   bool changes_sign(double to);
   Root polished(double low, double high, int sign_low) const;
-  [[nodiscard]] bool wanted(const Root& root) const { return root.upper >= from_ && root.lower <= to_; }
+  [[nodiscard]] bool wanted(const Root& root) const {
+    return root.upper >= line_.from && root.lower <= line_.to;
+  }
   bool find(Root& root);
   bool jumped(double at, Root& root);
   enum class Verdict { advanced, crossing, split };
@@ -153,9 +161,8 @@ class RootWalk {
   void count_cell();
 
   const ImplicitFormula& f_;
-  const FormulaLine line_;
-  const double from_, to_;
-  double start_, end_;  // a little wider than [from_, to_], at points where the sign of f is certain
+  const LinePiece line_;
+  double start_, end_;  // a little wider than the piece, at points where the sign of f is certain
   double a_;            // everything before is done
   double step_;         // of the next cell
   PointValue at_a_;

@@ -76,17 +76,8 @@ FormulaLine formula_line(const Shape& shape, const LocalLine& line) {
 /// For the statistics.
 thread_local std::uint64_t roots_solved = 0;
 
-/// Whether a root is left out.
-bool skipped(const Shape& shape, const Root& root) {
-  return root.kind == RootKind::unresolved && shape.values[skips] != 0.0;
-}
-
 RootFinder finder_of(const Shape& shape) {
   return static_cast<RootFinder>(shape.values[implicit_value::finder]);
-}
-
-Crossing crossing_of(const Root& root) {
-  return {root.t, 0, root.kind == RootKind::unresolved};
 }
 
 /// What the search for the first roots is given, and where each answer belongs.
@@ -103,18 +94,25 @@ Questions& questions_of_thread() {
   return questions;
 }
 
-/// The roots on a line from `from` on, one after the other, as far as they are wanted.
-Crossings walk_along(const Shape& shape, const LocalLine& line, double from, double to, double lambda_min,
-                     Wanted wanted) {
-  Crossings result;
-  RootWalk walk(*shape.formula, formula_line(shape, line), from, to);
-  for (Root root; result.count < 4 && walk.next(root);) {
-    ++roots_solved;
-    if (skipped(shape, root) || (wanted == Wanted::first && !(line.lambda(root.t) > lambda_min))) continue;
-    result.list[result.count++] = crossing_of(root);
-    if (wanted == Wanted::first) break;
+/// Whether a root is a surface that is seen.
+bool counts(const Shape& shape, const LocalLine& line, const Root& root, double lambda_min) {
+  ++roots_solved;
+  const bool skipped = root.kind == RootKind::unresolved && shape.values[skips] != 0.0;
+  return !skipped && line.lambda(root.t) > lambda_min;
+}
+
+FirstOnLine first_of(const Root& root) {
+  return {root.t, root.kind == RootKind::unresolved};
+}
+
+/// The first root that counts, where the first of all does not.
+FirstOnLine first_that_counts(const Shape& shape, const LocalLine& line, const LinePiece& piece,
+                              double lambda_min) {
+  RootWalk walk(*shape.formula, piece);
+  for (Root root; walk.next(root);) {
+    if (counts(shape, line, root, lambda_min)) return first_of(root);
   }
-  return result;
+  return {};
 }
 
 /// Puts the question for the roots of a line beyond lambda_min, if it is inside the bounds there.
@@ -143,15 +141,10 @@ void first_crossings_of(const Shape& shape, const LocalLines& lines, double lamb
   for (std::size_t k = 0; k < q.pieces.size(); ++k) {
     const Root& root = q.roots[k];
     if (!found(root)) continue;
-    ++roots_solved;
-    const std::size_t i = q.line_of[k];
-    if (!skipped(shape, root) && lines.lambda(i, root.t) > lambda_min) {
-      results[i] = {root.t, root.kind == RootKind::unresolved};
-      continue;
-    }
-    const Crossings rest =
-        walk_along(shape, lines.line(i), q.pieces[k].from, q.pieces[k].to, lambda_min, Wanted::first);
-    if (rest.count > 0) results[i] = {rest.list[0].t, rest.list[0].unresolved};
+    const LocalLine line = lines.line(q.line_of[k]);
+    results[q.line_of[k]] = counts(shape, line, root, lambda_min)
+                                ? first_of(root)
+                                : first_that_counts(shape, line, q.pieces[k], lambda_min);
   }
 }
 
@@ -175,13 +168,9 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
   for (std::size_t k = 0; k < q.pieces.size(); ++k) {
     const Root& root = q.roots[k];
     if (!found(root)) continue;
-    ++roots_solved;
-    const std::size_t i = q.line_of[k];
-    results[i] = !skipped(shape, root) && lines.lambda(i, root.t) > lambda_min;
-    if (results[i]) continue;
-    const Crossings rest =
-        walk_along(shape, lines.line(i), q.pieces[k].from, q.pieces[k].to, lambda_min, Wanted::first);
-    results[i] = rest.count > 0;
+    const LocalLine line = lines.line(q.line_of[k]);
+    results[q.line_of[k]] = counts(shape, line, root, lambda_min) ||
+                            first_that_counts(shape, line, q.pieces[k], lambda_min).t < infinite;
   }
   if (ending.count == 0) return;
   FirstOnLine first[LocalLines::most];
@@ -191,32 +180,9 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
   }
 }
 
-Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
-  if (wanted == Wanted::first) {
-    LocalLines one;
-    one.add(line);
-    FirstOnLine first;
-    first_crossings_of(shape, one, lambda_min, {&first, 1});
-    Crossings result;
-    if (first.t < infinite) result.list[result.count++] = {first.t, 0, first.unresolved};
-    return result;
-  }
-  const Stretch stretch = with_faces(shape, line);
-  if (!(stretch.in <= stretch.out)) return {};
-  return walk_along(shape, line, stretch.in, stretch.out, lambda_min, wanted);
-}
-
 void begin_walk(const Shape& shape, const LocalLine& line, double from, SolidWalk& walk) {
   walk.begin(*shape.formula, formula_line(shape, line), inside_bounds(shape, line), from,
              shape.values[skips] == 0.0);
-}
-
-LocalPoint point_of(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
-  LocalPoint point;
-  LocalLines one;
-  one.add(line);
-  implicit_points(shape, one, {&crossing, 1}, TextureCoordinates::wanted, {&point, 1});
-  return point;
 }
 
 }  // namespace
@@ -227,8 +193,8 @@ const ShapeMethods implicit_methods{.kind = ShapeKind::implicit,
                                     .problem = problem_of,
                                     .bounding_radius = radius_of,
                                     .half_extent = extent_of,
-                                    .crossings = crossings_of,
-                                    .point = point_of,
+                                    .crossings = crossings_of_one,
+                                    .point = point_of_one,
                                     .begin_walk = begin_walk,
                                     .first_crossings = first_crossings_of,
                                     .finder = finder_of,

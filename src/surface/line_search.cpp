@@ -30,16 +30,13 @@ double distance_from_zero(const Interval& value) {
 
 }  // namespace
 
-LineSearch::LineSearch(const LinePiece& piece, int most_steps, RootsWanted wanted)
+LineSearch::LineSearch(const LinePiece& piece, int most_steps)
     : piece_(&piece),
-      wanted_(wanted),
       begin_(piece.from),
       end_(piece.from + first_part * (piece.to - piece.from)),
       step_(end_ - begin_),
+      least_(least_length(piece)),
       steps_left_(most_steps) {
-  double size = std::max(std::abs(piece.from), std::abs(piece.to));
-  for (std::size_t v = 0; v < 3; ++v) size = std::max(size, std::abs(piece.origin[v]));
-  least_ = 16.0 * epsilon * size;
   if (!(piece.from < piece.to)) state_ = piece.from == piece.to ? State::given_up : State::without_root;
 }
 
@@ -63,9 +60,9 @@ void LineSearch::piece_is(const Interval& value, double slope_lower, double slop
 void LineSearch::point_is(const Interval& value) {
   const int sign = sign_of(value);
   if (state_ == State::at_begin) {
-    sign_begin_ = sign;
+    sign_begin_ = sign == 0 && begin_ == piece_->from ? piece_->sign : sign;
     size_begin_ = distance_from_zero(value);
-    sign == 0 ? void(state_ = State::given_up) : ask_point(State::at_end, end_);
+    sign_begin_ == 0 ? void(state_ = State::given_up) : ask_point(State::at_end, end_);
     return;
   }
   sign_end_ = sign;
@@ -82,7 +79,7 @@ void LineSearch::both_ends_known() {
   } else if (sign_begin_ == sign_end_ && (monotone || stays_off_zero())) {
     advance(sign_end_, size_end_);
   } else if (sign_begin_ != sign_end_ && monotone) {
-    start_polishing();
+    enclose_root();
   } else {
     divide(0.5);
   }
@@ -119,23 +116,12 @@ void LineSearch::advance(int sign, double size) {
 }
 
 /// There is one root between the ends, and f is monotone there.
-void LineSearch::start_polishing() {
-  root_ = {begin_, RootKind::crossing, sign_begin_, sign_end_, begin_, end_};
-  if (wanted_ == RootsWanted::existence) {
-    root_.t = end_;
-    state_ = State::with_root;
-    return;
-  }
-  bracket_ = {begin_, end_, sign_begin_ > 0, least_};
+void LineSearch::enclose_root() {
   // Where the secant through what is known of both ends meets zero.
   const double part = std::clamp(size_begin_ / (size_begin_ + size_end_), 0.01, 0.99);
   const double secant = begin_ + part * (end_ - begin_);
-  ask_point(State::polish, secant > begin_ && secant < end_ ? secant : 0.5 * begin_ + 0.5 * end_);
-}
-
-void LineSearch::number_is(double value, double slope) {
-  if (!bracket_.improve(point_, value, slope)) return;
-  root_.t = point_;
+  const double start = secant > begin_ && secant < end_ ? secant : 0.5 * begin_ + 0.5 * end_;
+  root_ = {start, RootKind::crossing, sign_begin_, sign_end_, begin_, end_};
   state_ = State::with_root;
 }
 

@@ -8,46 +8,42 @@
 
 #include "backlight/expression/interval.h"
 #include "implicit_roots.h"
-#include "newton_bracket.h"
 
 namespace backlight {
 
 class LineSearch {
  public:
   /// The piece must outlive the search.
-  LineSearch(const LinePiece& piece, int most_steps, RootsWanted wanted);
+  LineSearch(const LinePiece& piece, int most_steps);
 
   [[nodiscard]] const LinePiece& piece() const { return *piece_; }
   [[nodiscard]] bool is_finished() const { return state_ >= State::without_root; }
   [[nodiscard]] bool has_given_up() const { return state_ == State::given_up; }
-  /// The root, if one was found.
+  /// The root, if one was found: it is enclosed, and t is where Newton's steps may begin.
   [[nodiscard]] bool has_root() const { return state_ == State::with_root; }
   [[nodiscard]] const Root& root() const { return root_; }
 
-  // What is to be computed next: f and its slope on [begin, end], f at `point`, or both as plain numbers.
+  // What is to be computed next: f and its slope on [begin, end], or f at `point`.
   [[nodiscard]] bool asks_piece() const { return state_ == State::piece; }
   [[nodiscard]] bool asks_point() const { return state_ == State::at_begin || state_ == State::at_end; }
-  [[nodiscard]] bool asks_number() const { return state_ == State::polish; }
   [[nodiscard]] double begin() const { return begin_; }
   [[nodiscard]] double end() const { return end_; }
   [[nodiscard]] double point() const { return point_; }
 
   void piece_is(const Interval& value, double slope_lower, double slope_upper);
   void point_is(const Interval& value);
-  void number_is(double value, double slope);
 
  private:
-  enum class State { piece, at_begin, at_end, polish, without_root, with_root, given_up };
+  enum class State { piece, at_begin, at_end, without_root, with_root, given_up };
 
   void ask_point(State state, double at);
   void both_ends_known();
   [[nodiscard]] bool stays_off_zero() const;
   void divide(double part);
   void advance(int sign, double size);
-  void start_polishing();
+  void enclose_root();
 
   const LinePiece* piece_;
-  RootsWanted wanted_;
   State state_ = State::piece;
   double begin_, end_;
   double step_;   ///< length of the next piece
@@ -64,7 +60,6 @@ class LineSearch {
   double slope_upper_ = 0.0;
   bool shortened_ = false;
 
-  NewtonBracket bracket_{};
   Root root_;
 };
 

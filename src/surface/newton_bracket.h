@@ -15,7 +15,7 @@ struct NewtonBracket {
   double bend = std::numeric_limits<double>::infinity();
   int steps = 0;
 
-  static constexpr int most_steps = 60;
+  static constexpr int most_steps = 200;
 
   /// With the value and the slope at t. True: t is the root; else it is where to look next.
   bool improve(double& t, double value, double slope) {

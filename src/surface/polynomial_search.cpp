@@ -1,11 +1,14 @@
-#include "polynomial_search.h"
+// The search for the first roots along many lines on which the formula is a polynomial of low degree.
+//
+// The tape is run once for each line, in the arithmetic of polynomials with a bound of all rounding
+// (expression/line_polynomials.h); where their roots are is found without it (polynomial_lanes.h). The places
+// are settled by Newton's steps of the formula itself.
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "affine_search.h"
-#include "newton_bracket.h"
+#include "root_searches.h"
 #include "surface_kernels.h"
 
 namespace backlight {
@@ -13,20 +16,15 @@ namespace {
 
 constexpr std::size_t window = LinePolynomials::most;
 
-/// A root on its way to full precision.
-struct Settling {
-  std::size_t piece;
-  NewtonBracket bracket;
-};
-
 /// Work memory of one thread, used again for every search.
 struct Memory {
   LineBatch lines{window};
-  LineBatch points{window};
   std::vector<double> workspace;
   PolynomialQuestions questions;
   std::vector<std::size_t> piece_of;  ///< for each line, the index of its piece
-  std::vector<std::size_t> asking;
+  std::vector<std::size_t> hidden;    ///< lines at whose beginning rounding hides the sign
+  std::vector<LinePiece> hidden_pieces;
+  std::vector<int> signs;
   std::vector<Settling> settling;
   std::vector<std::size_t> undecided;
   std::vector<LinePiece> undecided_pieces;
@@ -58,7 +56,8 @@ class PolynomialSearch {
       roots_[i] = no_root();
       if (pieces_[i].from == pieces_[i].to) m_.undecided.push_back(i);
       if (!(pieces_[i].from < pieces_[i].to)) continue;
-      put_on(m_.lines, m_.piece_of.size(), pieces_[i], pieces_[i].from, pieces_[i].to);
+      const LinePiece& piece = pieces_[i];
+      m_.lines.put(m_.piece_of.size(), piece.origin, piece.direction, piece.from, piece.to);
       m_.piece_of.push_back(i);
       if (m_.piece_of.size() == window) search_some();
     }
@@ -67,15 +66,6 @@ class PolynomialSearch {
   }
 
  private:
-  static void put_on(LineBatch& batch, std::size_t slot, const FormulaLine& line, double from, double to) {
-    for (std::size_t v = 0; v < ImplicitFormula::variables; ++v) {
-      batch.origin(v)[slot] = line.origin[v];
-      batch.direction(v)[slot] = line.direction[v];
-    }
-    batch.from()[slot] = from;
-    batch.to()[slot] = to;
-  }
-
   void search_some() {
     const std::size_t count = m_.piece_of.size();
     if (count == 0) return;
@@ -87,25 +77,26 @@ class PolynomialSearch {
     for (std::size_t k = count; k < padded; ++k) m_.questions.sign[k] = m_.questions.sign[count - 1];
     kernels_.find_roots(m_.questions, padded, existence_);
     take(count);
-    settle();
+    // Newton's steps of the formula itself: the polynomials have led so near that it takes one, mostly.
+    settle_roots(program_, pieces_, m_.settling, roots_, work_);
     m_.piece_of.clear();
   }
 
   /// Where a line begins next to the surface, the formula itself is asked for the sign there.
   void find_hidden_signs(std::size_t count) {
-    m_.asking.clear();
+    m_.hidden.clear();
+    m_.hidden_pieces.clear();
     for (std::size_t k = 0; k < count; ++k) {
-      if (m_.questions.sign[k] != 0.0) continue;
       const LinePiece& piece = pieces_[m_.piece_of[k]];
-      put_on(m_.points, m_.asking.size(), piece, piece.from, piece.from);
-      m_.asking.push_back(k);
+      if (piece.sign != 0) m_.questions.sign[k] = piece.sign;
+      if (m_.questions.sign[k] != 0.0) continue;
+      m_.hidden.push_back(k);
+      m_.hidden_pieces.push_back(piece);
     }
-    program_.enclose_points(m_.points, m_.asking.size(), m_.workspace);
-    work_.points += m_.asking.size();
-    for (std::size_t i = 0; i < m_.asking.size(); ++i) {
-      const double sign = m_.points.lower()[i] > 0.0 ? 1.0 : m_.points.upper()[i] < 0.0 ? -1.0 : 0.0;
-      m_.questions.sign[m_.asking[i]] = m_.points.continuity()[i] == 0.0 ? sign : 0.0;
-    }
+    m_.signs.resize(m_.hidden.size());
+    find_signs(f_, m_.hidden_pieces, m_.signs);
+    work_.points += m_.hidden.size();
+    for (std::size_t i = 0; i < m_.hidden.size(); ++i) m_.questions.sign[m_.hidden[i]] = m_.signs[i];
   }
 
   void take(std::size_t count) {
@@ -127,37 +118,13 @@ class PolynomialSearch {
     const PolynomialQuestions& q = m_.questions;
     const LinePiece& piece = pieces_[i];
     const double half = q.polynomials.half[k];
-    double size = std::max(std::abs(piece.from), std::abs(piece.to));
-    for (std::size_t v = 0; v < 3; ++v) size = std::max(size, std::abs(piece.origin[v]));
-    const double least = 16.0 * std::numeric_limits<double>::epsilon() * size;
+    const double least = least_length(piece);
     const auto place = [&](double at) { return piece.from + half * (1.0 + at); };
     Root& root = roots_[i];
     root.lower = std::max(piece.from, place(q.low[k]) - least);
-    root.upper = std::min(piece.to, place(q.high[k]) + least);
+    root.upper = std::min(piece.to, place(q.high[k]));
     root.t = std::clamp(place(q.at[k]), root.lower, root.upper);
-    put_on(m_.points, m_.settling.size(), piece, root.t, root.t);
-    m_.settling.push_back({i, {root.lower, root.upper, root.sign_before > 0, least, 2.0 * q.bend[k] / half}});
-  }
-
-  /// Newton's steps of the formula itself: the polynomials have led so near that it takes one, mostly.
-  void settle() {
-    double* const at = m_.points.from();
-    while (!m_.settling.empty()) {
-      const std::size_t count = m_.settling.size();
-      program_.numbers(m_.points, count, m_.workspace);
-      work_.polish += count;
-      std::size_t kept = 0;
-      for (std::size_t k = 0; k < count; ++k) {
-        Settling s = m_.settling[k];
-        double t = at[k];
-        const bool settled = s.bracket.improve(t, m_.points.value()[k], m_.points.slope()[k]);
-        roots_[s.piece].t = t;
-        if (settled) continue;
-        put_on(m_.points, kept, pieces_[s.piece], t, t);
-        m_.settling[kept++] = s;
-      }
-      m_.settling.resize(kept);
-    }
+    m_.settling.push_back({i, 2.0 * q.bend[k] / half});
   }
 
   void search_undecided() {
@@ -165,8 +132,8 @@ class PolynomialSearch {
     m_.undecided_pieces.clear();
     for (const std::size_t i : m_.undecided) m_.undecided_pieces.push_back(pieces_[i]);
     m_.undecided_roots.resize(m_.undecided.size());
-    first_roots_by_forms(f_, m_.undecided_pieces, m_.undecided_roots,
-                         existence_ ? RootsWanted::existence : RootsWanted::places, work_);
+    search_by_forms(f_, m_.undecided_pieces, m_.undecided_roots,
+                    existence_ ? RootsWanted::existence : RootsWanted::places, work_);
     for (std::size_t k = 0; k < m_.undecided.size(); ++k) roots_[m_.undecided[k]] = m_.undecided_roots[k];
   }
 
@@ -182,8 +149,8 @@ class PolynomialSearch {
 
 }  // namespace
 
-void first_roots_of_polynomials(const ImplicitFormula& f, std::span<const LinePiece> pieces,
-                                std::span<Root> roots, RootsWanted wanted, RootWork& work) {
+void search_polynomials(const ImplicitFormula& f, std::span<const LinePiece> pieces, std::span<Root> roots,
+                        RootsWanted wanted, RootWork& work) {
   PolynomialSearch(f, pieces, roots, wanted, work).run();
 }
 

@@ -19,6 +19,24 @@ const ShapeMethods& methods(ShapeKind kind) {
   return *table[static_cast<std::size_t>(kind)];
 }
 
+Crossings crossings_of_one(const Shape& shape, const LocalLine& line, double lambda_min, Wanted /*first*/) {
+  LocalLines one;
+  one.add(line);
+  FirstOnLine first;
+  methods(shape).first_crossings(shape, one, lambda_min, {&first, 1});
+  Crossings result;
+  if (first.t < infinite) result.list[result.count++] = {first.t, first.part, first.unresolved};
+  return result;
+}
+
+LocalPoint point_of_one(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
+  LocalLines one;
+  one.add(line);
+  LocalPoint point;
+  methods(shape).points(shape, one, {&crossing, 1}, TextureCoordinates::wanted, {&point, 1});
+  return point;
+}
+
 std::string unless_positive(const char* name, double value) {
   return value > 0.0 && std::isfinite(value) ? std::string{}
                                              : std::string(name) + " must be positive and finite";

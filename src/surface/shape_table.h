@@ -116,6 +116,10 @@ inline Crossings crossings(const Shape& shape, const LocalLine& line, double lam
   return methods(shape).crossings(shape, line, lambda_min, wanted);
 }
 
+// The methods `crossings` (the first one) and `point` of shapes that have `first_crossings` and `points`.
+Crossings crossings_of_one(const Shape& shape, const LocalLine& line, double lambda_min, Wanted);
+LocalPoint point_of_one(const Shape& shape, const LocalLine& line, const Crossing& crossing);
+
 extern const ShapeMethods sphere_methods, box_methods, cylinder_methods, cone_methods, torus_methods,
     disk_methods, plane_methods, quadric_methods, csg_methods, implicit_methods;
 

@@ -5,35 +5,62 @@
 namespace backlight {
 
 void SolidWalk::begin(const Crossings& all) {
+  asks_ = Asks::nothing;
   roots_.reset();
   inside_before_ = all.inside_before;
   next_ = 0;
-  count_ = all.count;
-  for (int i = 0; i < all.count; ++i) found_[i] = {all.list[i], Kind::crossing};
+  events_.clear();
+  for (int i = 0; i < all.count; ++i) events_.push_back({all.list[i], Kind::crossing});
 }
 
 void SolidWalk::begin(const ImplicitFormula& f, const FormulaLine& line, const Stretch& bounds, double from,
                       bool keeps_touches) {
-  roots_.reset();
-  inside_before_ = inside_ = false;
+  begin({});
+  inside_ = false;
   keeps_touches_ = keeps_touches;
-  next_ = count_ = 0;
   reached_ = -infinite;
   bounds_ = bounds;
+  f_ = &f;
   if (!(bounds.in < bounds.out) || from >= bounds.out) return;
-  if (from > bounds.in) {
-    roots_.emplace(f, line, from, bounds.out, Jumps::report);
-    const int sign = roots_->sign_at_start();
+  piece_ = {line, std::max(from, bounds.in), bounds.out};
+  asks_ = Asks::sign;
+}
+
+void SolidWalk::sign_is(int sign) {
+  if (piece_.from > bounds_.in) {
+    if (sign == 0) {
+      piece_.from = bounds_.in;
+      return;
+    }
     inside_before_ = inside_ = sign < 0;
-    if (sign != 0) return;
   }
-  roots_.emplace(f, line, bounds.in, bounds.out, Jumps::report);
-  become(roots_->sign_at_start() < 0, bounds.in, bounds.part_in);
+  piece_.sign = sign;
+  if (sign == 0) return begin_roots();
+  become(sign < 0, piece_.from, bounds_.part_in);
+  asks_ = Asks::root;
+}
+
+void SolidWalk::root_is(const Root& root) {
+  if (is_given_up(root)) return begin_roots();
+  if (!found(root)) return finish();
+  count_root_solved();
+  add({root.t, 0, false}, Kind::crossing);
+  inside_ = root.sign_after < 0;
+  // Where the bracket ends the sign is certain.
+  piece_.from = root.upper;
+  piece_.sign = root.sign_after;
+  if (!(piece_.from < piece_.to)) finish();
+}
+
+void SolidWalk::begin_roots() {
+  asks_ = Asks::nothing;
+  roots_ = std::make_unique<RootWalk>(*f_, piece_, Jumps::report);
+  if (piece_.sign == 0) become(roots_->sign_at_start() < 0, piece_.from, bounds_.part_in);
 }
 
 void SolidWalk::add(const Crossing& crossing, Kind kind) {
   reached_ = std::max(reached_, crossing.t);
-  found_[count_++] = {{reached_, crossing.part, crossing.unresolved}, kind};
+  events_.push_back({{reached_, crossing.part, crossing.unresolved}, kind});
 }
 
 void SolidWalk::become(bool inside, double t, int part) {
@@ -41,35 +68,32 @@ void SolidWalk::become(bool inside, double t, int part) {
   inside_ = inside;
 }
 
+void SolidWalk::finish() {
+  asks_ = Asks::nothing;
+  roots_.reset();
+  become(false, bounds_.out, bounds_.part_out);
+}
+
 /// Looks for the next root, and adds what it means.
 void SolidWalk::go_on() {
-  next_ = count_ = 0;
   Root root;
-  if (!roots_->next(root)) {
-    roots_.reset();
-    become(false, bounds_.out, bounds_.part_out);
-    return;
-  }
+  if (!roots_->next(root)) return finish();
   const bool inside = root.sign_after < 0;
-  if (root.kind == RootKind::jump) {
-    add({root.t, 0, false}, Kind::jump);
-    inside_ = inside;
-    return;
-  }
+  const bool touch = inside == inside_;
+  inside_ = inside;
+  if (root.kind == RootKind::jump) return add({root.t, 0, false}, Kind::jump);
   count_root_solved();
   const bool unresolved = root.kind == RootKind::unresolved;
-  const bool touch = inside == inside_;
-  if (!touch || keeps_touches_ || !unresolved)
-    add({root.t, 0, unresolved}, touch ? Kind::touch : Kind::crossing);
-  inside_ = inside;
+  if (touch && unresolved && !keeps_touches_) return;
+  add({root.t, 0, unresolved}, touch ? Kind::touch : Kind::crossing);
 }
 
 bool SolidWalk::next(Event& event) {
-  while (next_ == count_) {
+  while (next_ == events_.size()) {
     if (!roots_) return false;
     go_on();
   }
-  event = found_[next_++];
+  event = events_[next_++];
   return true;
 }
 

@@ -1,8 +1,9 @@
-// The crossings of one solid along a line, one after the other: what CSG merges.
+// The crossings of one part of a solid along a line, one after the other: what CSG merges.
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
+#include <vector>
 
 #include "convex.h"
 #include "implicit_roots.h"
@@ -10,8 +11,9 @@
 
 namespace backlight {
 
-/// Finds the crossings as they are asked for: a formula may have many, and only those up to the first of the
-/// whole count. A walk is begun again for the next line; it allocates nothing.
+/// The crossings of a closed form are all known from the beginning. Those of a formula, which may be many,
+/// are found as they are asked for: the walk puts a question, which is answered together with those of other
+/// lines, and keeps what it was told. So it can be gone along again, as far as it is known.
 class SolidWalk {
  public:
   enum class Kind : std::uint8_t {
@@ -23,6 +25,9 @@ class SolidWalk {
     Crossing crossing;
     Kind kind = Kind::crossing;
   };
+  /// What has to be answered before the walk goes on: the sign of f where the piece `question` begins, by
+  /// bounds; or its first root there, by search_roots().
+  enum class Asks : std::uint8_t { nothing, sign, root };
 
   /// All crossings of a shape that has few.
   void begin(const Crossings& all);
@@ -33,26 +38,39 @@ class SolidWalk {
   void begin(const ImplicitFormula& f, const FormulaLine& line, const Stretch& bounds, double from,
              bool keeps_touches);
 
-  /// Whether the line comes from inside: before the first event.
+  [[nodiscard]] Asks asks() const { return asks_; }
+  [[nodiscard]] const LinePiece& question() const { return piece_; }
+  /// The answer, or 0.
+  void sign_is(int sign);
+  /// The answer.
+  void root_is(const Root& root);
+
+  /// Whether the line comes from inside: before the first event. Known when no sign is asked.
   [[nodiscard]] bool inside_before() const { return inside_before_; }
 
-  /// False: there are no more. The events come in order of t.
+  /// Back to before the first event.
+  void rewind() { next_ = 0; }
+  /// False: there are no more, or, if something is asked, none is known. The events come in order of t.
   bool next(Event& event);
 
  private:
   void become(bool inside, double t, int part);
   void add(const Crossing& crossing, Kind kind);
+  void begin_roots();
   void go_on();
+  void finish();
 
+  Asks asks_ = Asks::nothing;
   bool inside_before_ = false;
   bool inside_ = false;  // behind the last event that was found
   bool keeps_touches_ = false;
   double reached_ = -infinite;
-  std::optional<RootWalk> roots_;  // of a formula whose end is not yet reached
+  const ImplicitFormula* f_ = nullptr;
+  LinePiece piece_;                  // what is still to be searched
+  std::unique_ptr<RootWalk> roots_;  // along what is left of a line that the searches gave up
   Stretch bounds_;
-  Event found_[4];  // not yet asked for: from next_ on
-  int next_ = 0;
-  int count_ = 0;
+  std::vector<Event> events_;
+  std::size_t next_ = 0;
 };
 
 }  // namespace backlight

@@ -37,25 +37,12 @@ struct Near {
   }
 };
 
-/// The first crossings of a shape without a closed form.
-void first_crossings(const Shape& shape, const LocalLines& lines, std::span<FirstOnLine> found) {
-  if (methods(shape).first_crossings != nullptr) {
-    methods(shape).first_crossings(shape, lines, 0.0, found);
-    return;
-  }
-  for (std::size_t i = 0; i < lines.count; ++i) {
-    const Crossings first = crossings(shape, lines.line(i), 0.0, Wanted::first);
-    found[i] = {};
-    if (first.count > 0) found[i] = {first.list[0].t, first.list[0].unresolved, first.list[0].part};
-  }
-}
-
 bool nearest_of(const void* set, int index, std::uint64_t rays, const RaySheet& sheet, double who,
                 SheetHits& hits) {
   const PlacedSurface& surface = static_cast<const PlacedSurface*>(set)[index];
   const Near near(surface, sheet, rays);
   FirstOnLine found[LocalLines::most];
-  first_crossings(surface.shape, near.lines, {found, near.lines.count});
+  methods(surface.shape).first_crossings(surface.shape, near.lines, 0.0, {found, near.lines.count});
   bool any = false;
   for (std::size_t i = 0; i < near.lines.count; ++i) {
     const double lambda = near.lines.lambda(i, found[i].t);
@@ -76,15 +63,7 @@ std::uint64_t blocked_by(const void* set, int index, std::uint64_t rays, const R
   const PlacedSurface& surface = static_cast<const PlacedSurface*>(set)[index];
   const Near near(surface, sheet, rays);
   bool blocked[LocalLines::most];
-  if (methods(surface.shape).blocks != nullptr) {
-    methods(surface.shape).blocks(surface.shape, near.lines, 0.0, lambda_max, {blocked, near.lines.count});
-  } else {
-    FirstOnLine found[LocalLines::most];
-    first_crossings(surface.shape, near.lines, {found, near.lines.count});
-    for (std::size_t i = 0; i < near.lines.count; ++i) {
-      blocked[i] = near.lines.lambda(i, found[i].t) < lambda_max;
-    }
-  }
+  methods(surface.shape).blocks(surface.shape, near.lines, 0.0, lambda_max, {blocked, near.lines.count});
   std::uint64_t all = 0;
   for (std::size_t i = 0; i < near.lines.count; ++i) {
     if (blocked[i]) all |= std::uint64_t{1} << near.ray_of[i];
@@ -114,14 +93,7 @@ void points_by_lines(const PlacedSurface& surface, const Near& near, const Sheet
     crossings[i] = {hits.along[ray], hits.part_of(ray), hits.is_unresolved(ray)};
   }
   const auto wanted = textured ? TextureCoordinates::wanted : TextureCoordinates::unwanted;
-  const ShapeMethods& shape = methods(surface.shape);
-  if (shape.points != nullptr) {
-    shape.points(surface.shape, near.lines, {crossings, count}, wanted, {local, count});
-  } else {
-    for (std::size_t i = 0; i < count; ++i) {
-      local[i] = shape.point(surface.shape, near.lines.line(i), crossings[i]);
-    }
-  }
+  methods(surface.shape).points(surface.shape, near.lines, {crossings, count}, wanted, {local, count});
   for (std::size_t i = 0; i < count; ++i) put(surface_point(surface, local[i]), near.ray_of[i], out);
 }
 

@@ -62,14 +62,7 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
 }
 
 Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
-  if (wanted == Wanted::all) return all_crossings(shape, line);
-  LocalLines one;
-  one.add(line);
-  FirstOnLine first;
-  first_crossings_of(shape, one, lambda_min, {&first, 1});
-  Crossings result;
-  if (first.t < infinite) result.add(first.t, 0);
-  return result;
+  return wanted == Wanted::all ? all_crossings(shape, line) : crossings_of_one(shape, line, lambda_min, wanted);
 }
 
 void texture(const Shape& shape, int /*part*/, LocalPoint& point) {

@@ -237,13 +237,15 @@ int sign_at(const Tape& tape, const LinePiece& line, double s) {
 void check_searches(const ImplicitFormula& f, const LinePiece& line) {
   const Tape& tape = f.expression().tape();
   std::vector<Root> roots;
-  RootWalk walk(f, line, line.from, line.to);
+  RootWalk walk(f, line);
   for (Root root; roots.size() < 30000 && walk.next(root);) roots.push_back(root);
   require(walk.work().cells < 80000, "a walk is too long");
   require(roots.size() < 30000, "roots do not end");
   std::vector<double> first;
   for (const RootFinder finder : {RootFinder::interval, RootFinder::affine, RootFinder::polynomial}) {
-    first.push_back(first_root(f, line, line.from, line.to, finder).t);
+    Root root;
+    first_roots(f, {&line, 1}, {&root, 1}, finder);
+    first.push_back(root.t);
   }
   constexpr int samples = 64;
   const double step = (line.to - line.from) / samples;

@@ -5,6 +5,7 @@
 // registers: the results do not depend on which lines are computed together, nor on the instruction set.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -32,6 +33,16 @@ class LineBatch {
   /// The piece of the line, from <= to. At a point, only `from` counts.
   double* from() { return at(8); }
   double* to() { return at(9); }
+  /// Line i with all of its variables, and a piece of it.
+  void put(std::size_t i, const std::array<double, most_variables>& line_origin,
+           const std::array<double, most_variables>& line_direction, double piece_from, double piece_to) {
+    for (std::size_t v = 0; v < most_variables; ++v) {
+      origin(v)[i] = line_origin[v];
+      direction(v)[i] = line_direction[v];
+    }
+    from()[i] = piece_from;
+    to()[i] = piece_to;
+  }
 
   // Found by LineProgram. Bounds are certain: computed with outward rounding.
   double* lower() { return at(10); }
@@ -42,6 +53,11 @@ class LineBatch {
   double* slope_upper() { return at(13); }
   /// A Continuity (interval.h), as a number.
   double* continuity() { return at(14); }
+  /// Of all values within the bounds: -1 or 1; 0: not certain, or not continuous.
+  int certain_sign(std::size_t i) {
+    if (continuity()[i] != 0.0) return 0;
+    return lower()[i] > 0.0 ? 1 : upper()[i] < 0.0 ? -1 : 0;
+  }
   /// Of enclose_zeros(): a ZeroRegion (affine.h); its sign as a number.
   double* first_zero() { return at(10); }
   double* last_zero() { return at(11); }

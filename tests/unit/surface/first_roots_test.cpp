@@ -22,6 +22,12 @@ ImplicitFormula formula(const std::string& text) {
   return ImplicitFormula(std::get<Expression>(std::move(parsed)));
 }
 
+Root first_root(const ImplicitFormula& f, const LinePiece& piece, RootFinder finder) {
+  Root root;
+  first_roots(f, {&piece, 1}, {&root, 1}, finder);
+  return root;
+}
+
 /// Lines across a ball of radius 2, with a clock.
 std::vector<LinePiece> lines(int count) {
   std::mt19937_64 generator(3);
@@ -50,9 +56,9 @@ TEST_P(FirstRoots, AreTheSameAloneInABatchAndOnTheWalk) {
   first_roots(f, pieces, together, finder);
   int hits = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Root alone = first_root(f, pieces[i], pieces[i].from, pieces[i].to, finder);
+    const Root alone = first_root(f, pieces[i], finder);
     ASSERT_EQ(found(alone), found(together[i]));
-    RootWalk walk(f, pieces[i], pieces[i].from, pieces[i].to);
+    RootWalk walk(f, pieces[i]);
     Root walked;
     ASSERT_EQ(walk.next(walked), found(alone));
     if (!found(alone)) continue;
@@ -127,7 +133,7 @@ TEST(FirstRoots, AreThoseOfTangentLinesToo) {
          {std::pair{1.0 - off, RootFinder::interval}, std::pair{1.0 + off, RootFinder::interval},
           std::pair{1.0 - off, RootFinder::affine}, std::pair{1.0 + off, RootFinder::affine},
           std::pair{1.0 - off, RootFinder::polynomial}, std::pair{1.0 + off, RootFinder::polynomial}}) {
-      const Root root = first_root(f, {{0, y, 0, 0}, {1, 0, 0, 0}}, -2.0, 2.0, finder);
+      const Root root = first_root(f, {{{0, y, 0, 0}, {1, 0, 0, 0}}, -2.0, 2.0}, finder);
       ASSERT_EQ(found(root), y < 1.0) << y - 1.0;
       if (y > 1.0) continue;
       EXPECT_EQ(root.kind, RootKind::crossing);
@@ -144,8 +150,8 @@ TEST(FirstRoots, AreNotTheStartOfALineThatLeaves) {
       const FormulaLine line{{0.3, -0.2, 0.1, 0}, {0.6, 0.8, 0, 0}};
       const double middle = -(0.3 * 0.6 - 0.2 * 0.8);
       const double half = std::sqrt(middle * middle - (0.09 + 0.04 + 0.01 - 1.0));
-      EXPECT_FALSE(found(first_root(f, line, middle + half + off, 4.0, finder))) << off;
-      const Root far = first_root(f, line, middle - half + off, 4.0, finder);
+      EXPECT_FALSE(found(first_root(f, {line, middle + half + off, 4.0}, finder))) << off;
+      const Root far = first_root(f, {line, middle - half + off, 4.0}, finder);
       ASSERT_TRUE(found(far)) << off;
       EXPECT_NEAR(far.t, middle + half, 1e-14);
     }

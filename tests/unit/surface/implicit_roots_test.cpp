@@ -19,8 +19,15 @@ ImplicitFormula formula(const std::string& text) {
   return ImplicitFormula(std::get<Expression>(parsed));
 }
 
+std::vector<Root> all_roots(const ImplicitFormula& f, const LinePiece& piece) {
+  std::vector<Root> roots;
+  Root root;
+  for (RootWalk walk(f, piece); walk.next(root);) roots.push_back(root);
+  return roots;
+}
+
 std::vector<Root> along_x(const std::string& text, double from = -2.0, double to = 2.0) {
-  return all_roots(formula(text), {{0, 0, 0, 0}, {1, 0, 0, 0}}, from, to);
+  return all_roots(formula(text), {{{0, 0, 0, 0}, {1, 0, 0, 0}}, from, to});
 }
 
 struct Known {
@@ -118,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Formulas, MultipleRoots,
 TEST(RootWalk, AStretchOfRootsHasTwoFaces) {
   const ImplicitFormula boxes =
       formula("min(max(abs(x), abs(y-0.5), abs(z))-0.5, max(abs(x), abs(y+0.5), abs(z))-0.5)");
-  const std::vector<Root> found = all_roots(boxes, {{0.1, 0, 0, 0}, {1, 0, 0, 0}}, -2.0, 2.0);
+  const std::vector<Root> found = all_roots(boxes, {{{0.1, 0, 0, 0}, {1, 0, 0, 0}}, -2.0, 2.0});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_NEAR(found[0].t, -0.6, 1e-15);
   EXPECT_NEAR(found[1].t, 0.4, 1e-15);
@@ -130,7 +137,7 @@ TEST(RootWalk, AStretchOfRootsHasTwoFaces) {
 // Numbers that underflow say nothing of f.
 TEST(RootWalk, NothingIsInventedWhereDoublesUnderflow) {
   const ImplicitFormula f = formula("exp(1000*x) - exp(1000*y)");
-  EXPECT_TRUE(all_roots(f, {{-1, -1.5, 0, 0}, {1, 0, 0, 0}}, -1.0, 0.9).empty());
+  EXPECT_TRUE(all_roots(f, {{{-1, -1.5, 0, 0}, {1, 0, 0, 0}}, -1.0, 0.9}).empty());
 }
 
 // A search ends soon where f is nowhere defined, or rounding hides whether it is.
@@ -139,13 +146,13 @@ TEST(RootWalk, WorkIsBoundedWhereFIsUndefined) {
        {"x^x - 0.8", "asin(x/abs(x)) - y", "sqrt(x - x) + y", "y - tan(2*x)", "y - floor(x)",
         "exp(1000*(x+3)) - exp(1000*(y+3))", "log(-1 - x^2)", "x^y - 0.5", "y - mod(x, 0.5)"}) {
     const ImplicitFormula f = formula(text);
-    RootWalk walk(f, {{0.013, 0.27, 0.1, 0}, {0.8, 0.6, 0, 0}}, -2.0, 2.0);
+    RootWalk walk(f, {{{0.013, 0.27, 0.1, 0}, {0.8, 0.6, 0, 0}}, -2.0, 2.0});
     for (Root root; walk.next(root);) {
     }
     EXPECT_LE(walk.work().cells + walk.work().points, 2000U) << text;
   }
   const ImplicitFormula endless = formula("sin(1/x)*sin(1/y)");
-  RootWalk walk(endless, {{1e-3, -1e-3, 0, 0}, {0.6, 0.8, 0, 0}}, -2.0, 2.0);
+  RootWalk walk(endless, {{{1e-3, -1e-3, 0, 0}, {0.6, 0.8, 0, 0}}, -2.0, 2.0});
   for (Root root; walk.next(root);) {
   }
   EXPECT_LE(walk.work().cells, 40000U);
@@ -177,7 +184,7 @@ TEST(RootWalk, ExpandedTripleRootIsFlaggedWhereItIs) {
 }
 
 TEST(RootWalk, InfinitelyManyRootsEndInOneUnresolved) {
-  const std::vector<Root> found = all_roots(formula("sin(1/x)"), {{2, 0, 0, 0}, {-1, 0, 0, 0}}, 0.0, 2.0);
+  const std::vector<Root> found = all_roots(formula("sin(1/x)"), {{{2, 0, 0, 0}, {-1, 0, 0, 0}}, 0.0, 2.0});
   ASSERT_GT(found.size(), 100U);
   for (std::size_t i = 0; i < 100; ++i)
     EXPECT_NEAR(2.0 - found[i].t, 1.0 / (pi * static_cast<double>(i + 1)), 1e-15);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "backlight/surface/implicit_surface.h"
 #include "backlight/surface/surface_set.h"
 #include "solid_oracle.h"
 
@@ -243,6 +244,120 @@ TEST(Solid, PolesAreNoSurfaceButCountForWhatIsInside) {
   const Seen back = look(rest, {-3, 0.0, 0.0}, right);
   EXPECT_DOUBLE_EQ(back.hit.lambda, 3.5);
   EXPECT_DOUBLE_EQ(back.point.normal.x, 1.0);
+}
+
+SolidTree formula_part(const std::string& text, double half, const Placement& placement = Placement{}) {
+  const auto f = std::make_shared<const ImplicitFormula>(
+      std::get<Expression>(Expression::parse(text, {"x", "y", "z", "t"})));
+  return part(implicit(f, Vec3{-half}, Vec3{half}), placement);
+}
+
+/// Solids of formulas that are searched in each of the ways that there are, and some at random.
+std::vector<SolidTree> solids_of_formulas() {
+  const SolidTree ball = part(sphere(1.1));
+  const SolidTree wall = formula_part("abs(sin(4*x)*cos(4*y)+sin(4*y)*cos(4*z)+sin(4*z)*cos(4*x))-0.2", 1.2);
+  const SolidTree sextic =
+      formula_part("4.236*(x^2+y^2+z^2-1)^2-4*(2.618*x^2-y^2)*(2.618*y^2-z^2)*(2.618*z^2-x^2)", 1.2);
+  const SolidTree root = formula_part("sqrt(x^2+y^2)-0.5+0.2*z", 1.0, Placement({0.2, 0, 0}, {30, 0, 20}));
+  std::vector<SolidTree> solids{combined(SolidOperation::intersect, {wall, ball}),
+                                combined(SolidOperation::difference, {ball, wall}),
+                                combined(SolidOperation::intersect, {sextic, part(plane())}),
+                                combined(SolidOperation::unite, {sextic, root, wall}),
+                                combined(SolidOperation::difference, {ball, root, sextic})};
+  Random random(23);
+  for (int i = 0; i < 20; ++i) {
+    solids.push_back(
+        combined(static_cast<SolidOperation>(i % 3), {some_solid(random, 2), some_solid(random, 2)}));
+  }
+  return solids;
+}
+
+/// Rays as arrays, at something about the origin: from outside, and from within.
+struct Sheet {
+  static constexpr std::size_t count = 50;
+  double numbers[8][count]{};
+
+  explicit Sheet(Random& random) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 origin = random.vector(i % 2 == 0 ? 3.0 : 0.9);
+      const Vec3 direction = random.vector(0.8) - (i % 2 == 0 ? origin : Vec3{0.0});
+      for (int axis = 0; axis < 3; ++axis) {
+        numbers[axis][i] = origin[axis];
+        numbers[3 + axis][i] = direction[axis];
+      }
+    }
+  }
+  [[nodiscard]] SurfaceSet::Rays rays() const {
+    return {count,
+            {numbers[0], numbers[1], numbers[2]},
+            {numbers[3], numbers[4], numbers[5]},
+            numbers[6],
+            numbers[7]};
+  }
+  [[nodiscard]] Vec3 origin(std::size_t i) const { return {numbers[0][i], numbers[1][i], numbers[2][i]}; }
+  [[nodiscard]] Vec3 direction(std::size_t i) const { return {numbers[3][i], numbers[4][i], numbers[5][i]}; }
+};
+
+// What is found of a ray does not depend on those that are asked together with it.
+TEST(Solid, RaysFindTogetherWhatEachFindsAlone) {
+  Random random(11);
+  int hits = 0;
+  for (const SolidTree& tree : solids_of_formulas()) {
+    const SurfaceSet set = set_of(tree);
+    const Sheet sheet(random);
+    std::vector<Hit> together(Sheet::count);
+    set.first_crossings_of(0, sheet.rays(), together);
+    bool blocked[Sheet::count];
+    set.blocked_by(0, sheet.rays(), 0.7, blocked);
+    for (std::size_t i = 0; i < Sheet::count; ++i) {
+      const Hit alone = set.first_crossing_of(0, sheet.origin(i), sheet.direction(i));
+      ASSERT_EQ(together[i].found(), alone.found());
+      EXPECT_EQ(blocked[i], alone.found() && alone.lambda < 0.7);
+      if (!alone.found()) continue;
+      ++hits;
+      EXPECT_EQ(together[i].lambda, alone.lambda);
+      EXPECT_EQ(together[i].part, alone.part);
+      EXPECT_EQ(together[i].unresolved, alone.unresolved);
+    }
+  }
+  EXPECT_GT(hits, 500);
+}
+
+TEST(Solid, PointsAreResolvedTogetherAsEachAlone) {
+  Random random(12);
+  for (const SolidTree& tree : solids_of_formulas()) {
+    const SurfaceSet set = set_of(tree);
+    Sheet sheet(random);
+    std::vector<Hit> hits;
+    for (std::size_t i = 0; i < Sheet::count; ++i) {
+      const Hit hit = set.first_crossing_of(0, sheet.origin(i), sheet.direction(i));
+      if (!hit.found()) continue;
+      for (auto& array : sheet.numbers) array[hits.size()] = array[i];
+      hits.push_back(hit);
+    }
+    if (hits.empty()) continue;
+    SurfaceSet::Rays rays = sheet.rays();
+    rays.count = hits.size();
+    std::vector<SurfacePoint> points(hits.size());
+    set.resolve_all(hits, rays, true, points);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const SurfacePoint alone = set.resolve(hits[i], sheet.origin(i), sheet.direction(i));
+      EXPECT_EQ(points[i].position, alone.position);
+      EXPECT_EQ(points[i].normal, alone.normal);
+      EXPECT_EQ(points[i].u, alone.u);
+      EXPECT_EQ(points[i].v, alone.v);
+      EXPECT_EQ(points[i].member, alone.member);
+      EXPECT_EQ(points[i].error_bound, alone.error_bound);
+    }
+  }
+}
+
+// An ellipsoid whose formula is negative outside is solid there, also where the line is far from it.
+TEST(Solid, AnEllipsoidThatIsSolidOutsideIsSolidEverywhereOutside) {
+  const SolidTree outside = part(quadric({-1, -1, -1, 0, 0, 0, 0, 0, 0, 0.25}), Placement({5, 0, 0}));
+  const SurfaceSet set = set_of(combined(SolidOperation::intersect, {part(sphere(1.0)), outside}));
+  EXPECT_DOUBLE_EQ(set.nearest({-3, 0.0, 0.0}, {1, 0, 0}).lambda, 2.0);
+  EXPECT_DOUBLE_EQ(set.nearest({0, -3, 0.0}, {0, 1, 0}).lambda, 2.0);
 }
 
 TEST(Solid, SaysWhatIsWrong) {
