@@ -37,9 +37,16 @@ struct Range {
 constexpr Range shifts{111.0 / 256.0, 592.0 / 256.0, 45};
 static_assert(shifts.least * cie::last_nm <= cie::first_nm && shifts.end * cie::first_nm >= cie::last_nm);
 
-// Temperatures times shifts, in K, of rows and of weights. Beyond, both are made for each place.
+// Temperatures times shifts, in K. Beyond, a row and its weights are made for each place.
 constexpr Range temperatures{64.0, 4194304.0, 44};
-constexpr Range weighed_temperatures{64.0, 4194304.0, 46};
+
+// Those of weights: visible light of hot bodies changes little with the temperature, and less with more.
+constexpr Range cold{temperatures.least, 8192.0, 46};
+constexpr Range hot{cold.end, temperatures.end, 48};
+
+constexpr bool is_hot(double kelvin) {
+  return kelvin >= hot.least;
+}
 
 // Greater powers of e would leave no room for what a strength, a distance and D make of them.
 constexpr double greatest_log = 600.0;
@@ -174,17 +181,14 @@ ObserverSamples normalised_body(double kelvin) {
 
 LightRows::Row body_row(double kelvin) {
   const ObserverSamples light = body_at(kelvin);
-  // d ln B / d ln T = x / (1 - exp(-x)), x = c2/(λT)
+  // d ln B / d ln T = x / (1 - exp(-x)) = x (1 + 1 / (exp(x) - 1)), x = c2/(λT); B is λ^-5 / (exp(x) - 1)
+  const double share = exponential_of(-body_reference(kelvin));
   ObserverSamples growth;
-  double x[cie::sample_count + 1], share[cie::sample_count + 1];
-  for (std::size_t i = 0; i <= growth.size(); ++i) {
-    x[i] = planck::second_constant_nm_kelvin / ((cie::first_nm + static_cast<double>(i)) * kelvin);
+  for (std::size_t i = 0; i < growth.size(); ++i) {
+    const double nm = cie::first_nm + static_cast<double>(i);
+    const double x = planck::second_constant_nm_kelvin / (nm * kelvin);
+    growth[i] = light[i] * (x * (1.0 + light[i] * share * (nm * nm) * (nm * nm) * nm));
   }
-  for (std::size_t i = 0; i < growth.size(); i += 2) {
-    const Lanes<2> two = Lanes<2>::load(x + i);
-    (two / exponential(-two).complement()).store(share + i);
-  }
-  for (std::size_t i = 0; i < growth.size(); ++i) growth[i] = light[i] * share[i];
   const LinearRgb film = sum_over_film(light), slope = sum_over_film(growth) / kelvin;
   const double y = luminance(film), y_slope = luminance(slope);
   LightRows::Row row;
@@ -242,7 +246,7 @@ LightRows::LightRows(std::vector<double> nm)
     : nm_(std::move(nm)),
       spline_(std::make_unique<const SplineWeights>(nm_)),
       daylight_(shifts.rows(), shifts.rows()),
-      bodies_(temperatures.rows(), weighed_temperatures.rows()) {
+      bodies_(temperatures.rows(), cold.rows() + hot.rows()) {
   for (std::size_t i = 0; i < cie::sample_count; ++i) {
     const auto beyond = std::upper_bound(nm_.begin(), nm_.end(), cie::first_nm + static_cast<double>(i));
     beyond_.push_back(static_cast<std::size_t>(beyond - nm_.begin()));
@@ -296,14 +300,16 @@ LightRows::Weighting LightRows::weighting(const Place& place) const {
     own = make_weights(normalised_body(place.at));
     return {this, {&own, &own, &own, &own}, {1.0, 0.0, 0.0, 0.0}};
   }
-  const Range& range = place.family == Family::daylight ? shifts : weighed_temperatures;
+  const bool daylight = place.family == Family::daylight;
+  const Range& range = daylight ? shifts : is_hot(place.at) ? hot : cold;
+  const std::size_t before = !daylight && is_hot(place.at) ? cold.rows() : 0;
   const std::size_t index = range.index(place.at);
   const std::size_t first = std::min(index == 0 ? 0 : index - 1, range.rows() - 4);
   Weighting weighting{this, {}, {}};
   double at[4];
   for (std::size_t i = 0; i < 4; ++i) {
     at[i] = range.at(first + i);
-    weighting.around[i] = &weights_of(place.family, first + i);
+    weighting.around[i] = &weights_of(place.family, before + first + i);
   }
   for (std::size_t i = 0; i < 4; ++i) {
     double above = 1.0, below = 1.0;
@@ -321,8 +327,10 @@ const LightRows::Weights& LightRows::weights_of(Family family, std::size_t index
   if (family == Family::daylight) {
     return made(daylight_.weights[index], [&] { return make_weights(daylight_at(shifts.at(index))); });
   }
-  return made(bodies_.weights[index],
-              [&] { return make_weights(normalised_body(weighed_temperatures.at(index))); });
+  return made(bodies_.weights[index], [&] {
+    const double kelvin = index < cold.rows() ? cold.at(index) : hot.at(index - cold.rows());
+    return make_weights(normalised_body(kelvin));
+  });
 }
 
 const LightRows::Weights& LightRows::of_white() const {

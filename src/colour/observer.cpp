@@ -96,9 +96,19 @@ WavelengthSet::WavelengthSet(int count) {
   lights_ = std::make_shared<const LightRows>(nm_);
 }
 
+namespace {
+
+// A whole light shows the same whatever the set: the rows of one do for all.
+const LightRows& whole_lights() {
+  static const LightRows& lights = wavelength_set(default_wavelength_count).lights();
+  return lights;
+}
+
+}  // namespace
+
 LinearRgb WavelengthSet::film_under(const Spectrum& light, double shift, const Sampled* reflectance,
                                     double* work, const SpectralKernels& kernels) const {
-  const std::optional<LightRows::Place> place = lights_->at(light, shift);
+  const std::optional<LightRows::Place> place = whole_lights().at(light, shift);
   if (!place) {  // the same at every wavelength
     light.evaluate(nm_.data(), size(), work, kernels);
     return film(work, reflectance == nullptr ? nullptr : reflectance->values, kernels);
@@ -109,7 +119,7 @@ LinearRgb WavelengthSet::film_under(const Spectrum& light, double shift, const S
 
 LinearRgb WavelengthSet::film_per_luminance(const Spectrum& light, double shift, const Sampled* reflectance,
                                             double* work, const SpectralKernels& kernels) const {
-  LightRows::Place place = lights_->at(light, shift).value();
+  LightRows::Place place = whole_lights().at(light, shift).value();
   place.scale = 1.0;
   return film_at(place, light, shift, reflectance, work, kernels) / luminance(place.film());
 }
