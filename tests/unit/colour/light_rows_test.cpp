@@ -9,21 +9,13 @@
 
 #include "backlight/colour/observer.h"
 #include "backlight/colour/spectrum.h"
+#include "cie_sum.h"
 
 namespace backlight {
 namespace {
 
 const SpectralKernels& kernels() {
   return spectral_kernels(InstructionSet::widest);
-}
-
-double d65_sum() {
-  static const double sum = [] {
-    double y = 0.0;
-    for (int nm = 360; nm <= 830; ++nm) y += Spectrum::d65().at(nm) * colour_matching_functions(nm).y;
-    return y;
-  }();
-  return sum;
 }
 
 // The CIE's sum over 1 nm.
