@@ -11,12 +11,26 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "bench"))
+import povray_twin  # noqa: E402
+
 BACKLIGHT = "build/bench/bin/backlight"
 FIELD = "build/bench/bench/sphere_field"
 EMBREE = "build/bench/bench/embree_spheres"
 YARDSTICKS = "bench/yardsticks"
 RECORD = "docs/charts/beside.csv"
-ROWS = ("spheres", "torus", "barth", "gyroid", "motion", "spectral", "many", "threads", "memory", "startup")
+SCENES = {  # pictures that people make, each beside its twin at rest
+    "fig2a": ("fig2a-tram-rest", "tram and street at rest"),
+    "fig2b": ("fig2b-tram-terrell", "tram at 0.87c"),
+    "fig7": ("fig7-tram-shadow", "tram at 0.9c, shadows, spectra"),
+    "fig1": ("fig1-tram-interior", "camera at 0.9c, spectra"),
+    "default": ("default", "toys at 0.5c, spectra"),
+    "flicker": ("street-lamp-flicker", "street at rest, flashing lamp"),
+}
+ALGEBRAIC = "scenes/algebraic-0.9c.toml"
+ROWS = ("spheres", "torus", "barth", "gyroid", "motion", "spectral", "many", "threads", *SCENES, "algebraic", "big-fig7", "process",
+        "memory", "startup")
+SLOW_ROWS = ("memory", "big-fig7")
 PLAIN = ("-D", "effects.doppler=false")  # red, green and blue, with the searchlight effect
 
 
@@ -128,6 +142,13 @@ def field(bench, spheres, motion):
     return path
 
 
+def twin(bench, name):
+    path = os.path.join(bench.folder, name + ".pov")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(povray_twin.twin(f"scenes/{name}.toml"))
+    return path
+
+
 def peak_megabytes(command):
     """Of a process alone, from the moment it is started."""
     child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -138,7 +159,7 @@ def peak_megabytes(command):
 
 def subjects(bench, rows):
     """What is timed, for the rows that are wanted."""
-    spheres = {"spheres", "motion", "spectral", "many", "threads"} & set(rows)
+    spheres = {"spheres", "motion", "spectral", "many", "threads", "process"} & set(rows)
     if spheres:
         bench.add("200 spheres moving", backlight(bench, field(bench, 200, "distinct"), *PLAIN))
         bench.add("200 spheres at rest", backlight(bench, field(bench, 200, "rest")))
@@ -166,6 +187,19 @@ def subjects(bench, rows):
         for threads in (1, 2):
             bench.add(f"POV-Ray big, {threads} threads",
                       povray(bench, field(bench, 200, "povray"), threads=threads, size=(2880, 2104)))
+    for row, (name, _) in SCENES.items():
+        if row in rows:
+            bench.add(name, backlight(bench, f"scenes/{name}.toml", "--samples", "1"))
+            bench.add(f"POV-Ray {name}", povray(bench, twin(bench, name)))
+    if "algebraic" in rows:
+        bench.add("algebraic-0.9c", backlight(bench, ALGEBRAIC, "--samples", "1"))
+    if "big-fig7" in rows:
+        for threads in (1, 2):
+            bench.add(f"fig7, 1920x1080, {threads} threads",
+                      backlight(bench, "scenes/fig7-tram-shadow.toml", "--samples", "16", threads=threads, size="1920x1080"))
+    if "process" in rows:
+        bench.add("process, 200 spheres moving", backlight(bench, field(bench, 200, "distinct"), *PLAIN, size="2880x2104"))
+        bench.add("process, POV-Ray", povray(bench, field(bench, 200, "povray"), size=(2880, 2104)))
     if "startup" in rows:
         one = os.path.join(bench.folder, "one.toml")
         with open(one, "w", encoding="utf-8") as file:
@@ -177,8 +211,8 @@ def report(bench, rows):
     """The table: (work, ours, its seconds, other, its seconds, ratio, wanted)."""
     lines = []
 
-    def ratio(work, numerator, denominator, wanted):
-        a, b = bench.seconds(numerator), bench.seconds(denominator)
+    def ratio(work, numerator, denominator, wanted, seconds=bench.seconds):
+        a, b = seconds(numerator), seconds(denominator)
         lines.append((work, numerator, f"{a:.4f} s", denominator, f"{b:.4f} s", f"{a / b:.2f}", wanted))
 
     if "spheres" in rows:
@@ -207,12 +241,24 @@ def report(bench, rows):
         ratio("  two processes at once, each on its CPU", "big, 1 threads", "big, two processes", "")
         ratio("  POV-Ray's", "POV-Ray big, 1 threads", "POV-Ray big, 2 threads", "")
         ratio("  POV-Ray beside ours, two", "POV-Ray big, 2 threads", "big, 2 threads", "")
+    for row, (name, what) in SCENES.items():
+        if row in rows:
+            ratio(f"{row}: {what}", f"POV-Ray {name}", name, ">= 10")
+    if "big-fig7" in rows:
+        ratio("fig7, two threads, 1920x1080, 16 samples", "fig7, 1920x1080, 1 threads", "fig7, 1920x1080, 2 threads", ">= 1.9")
+    if "process" in rows:
+        ratio("whole process, 200 moving spheres, 2880x2104", "process, POV-Ray", "process, 200 spheres moving", ">= 10",
+              bench.whole_seconds)
     return lines
 
 
 def report_process(bench, rows):
     """What of a whole process is measured, in lines of the same form."""
     lines = []
+    if "algebraic" in rows:
+        seconds = bench.seconds("algebraic-0.9c")
+        lines.append(("algebraic-0.9c, Mray/s of the camera", "algebraic-0.9c", f"{seconds:.4f} s", "", "",
+                      f"{720 * 526 / seconds / 1e6:.2f}", ""))
     if "memory" in rows:
         scene = field(bench, 100000, "distinct")
         command = [BACKLIGHT, "render", scene, "-o", os.path.join(bench.folder, "picture.exr"), "-q", "-r", "1920x1080",
@@ -255,7 +301,7 @@ def main():
     unknown = [row for row in options.rows if row not in ROWS]
     if unknown or options.rounds < 1:
         sys.exit(f"bench: no row {unknown[0] if unknown else options.rounds}; there are: {' '.join(ROWS)}")
-    rows = options.rows or [row for row in ROWS if not (options.quick and row == "memory")]
+    rows = options.rows or [row for row in ROWS if not (options.quick and row in SLOW_ROWS)]
     begin = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(folder, 2 if options.quick else options.rounds)

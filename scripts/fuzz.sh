@@ -10,9 +10,8 @@ cd "$(dirname "$0")/.."
 
 seconds=${1:-20}
 seed=${2:-0}
-for number in "$seconds" "$seed"; do
-  [[ $number =~ ^[0-9]+$ ]] || { echo "scripts/fuzz.sh: '$number' is not a whole number" >&2; exit 2; }
-done
+. scripts/whole_numbers.sh
+need_whole_numbers "$seconds" "$seed"
 scripts/install.sh build test ci
 cmake --preset clang -B build/fuzz -DBACKLIGHT_FUZZ=ON -DBACKLIGHT_SANITIZE=address >/dev/null
 cmake --build build/fuzz --target expression_fuzz evaluator_fuzz solid_fuzz

@@ -11,9 +11,8 @@ cd "$(dirname "$0")/.."
 
 count=${1:-100000}
 seed=${2:-1}
-for number in "$count" "$seed"; do
-  [[ $number =~ ^[0-9]+$ ]] || { echo "scripts/mutate.sh: '$number' is not a whole number" >&2; exit 2; }
-done
+. scripts/whole_numbers.sh
+need_whole_numbers "$count" "$seed"
 shift $(($# < 2 ? $# : 2))
 kinds=("$@")
 ((${#kinds[@]})) || kinds=(scene image texture table)

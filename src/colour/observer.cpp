@@ -96,26 +96,53 @@ WavelengthSet::WavelengthSet(int count) {
   lights_ = std::make_shared<const LightRows>(nm_);
 }
 
+namespace {
+
+// A whole light shows the same whatever the set: the rows of one do for all.
+const LightRows& whole_lights() {
+  static const LightRows& lights = wavelength_set(default_wavelength_count).lights();
+  return lights;
+}
+
+}  // namespace
+
 LinearRgb WavelengthSet::film_under(const Spectrum& light, double shift, const Sampled* reflectance,
                                     double* work, const SpectralKernels& kernels) const {
-  const std::optional<LightRows::Place> place = lights_->at(light, shift);
-  const std::optional<SigmoidReflectance> colour = light.shape();
-  if (!place || colour) {
-    for (std::size_t i = 0; i < nm_.size(); ++i) work[i] = shift * nm_[i];
-    // Coloured light is D65 times a reflectance; what is neither is the same at every wavelength.
-    (place ? Spectrum::sigmoid_reflectance(*colour) : light).evaluate(work, size(), work, kernels);
-    if (!place) return film(work, reflectance == nullptr ? nullptr : reflectance->values, kernels);
-  } else if (reflectance == nullptr) {
-    return place->film();
+  const std::optional<LightRows::Place> place = whole_lights().at(light, shift);
+  if (!place) {  // the same at every wavelength
+    light.evaluate(nm_.data(), size(), work, kernels);
+    return film(work, reflectance == nullptr ? nullptr : reflectance->values, kernels);
   }
-  LinearRgb sum = reflectance == nullptr ? place->film(work, nullptr, kernels)
-                                         : place->film(reflectance->values, colour ? work : nullptr, kernels);
+  if (reflectance == nullptr && !light.shape()) return place->film();
+  return place->scale * film_at(*place, light, shift, reflectance, work, kernels);
+}
+
+LinearRgb WavelengthSet::film_per_luminance(const Spectrum& light, double shift, const Sampled* reflectance,
+                                            double* work, const SpectralKernels& kernels) const {
+  LightRows::Place place = whole_lights().at(light, shift).value();
+  place.scale = 1.0;
+  return film_at(place, light, shift, reflectance, work, kernels) / luminance(place.film());
+}
+
+// Of the place's scale 1. Coloured light is D65 times a reflectance.
+LinearRgb WavelengthSet::film_at(const LightRows::Place& place, const Spectrum& light, double shift,
+                                 const Sampled* reflectance, double* work,
+                                 const SpectralKernels& kernels) const {
+  const std::optional<SigmoidReflectance> colour = light.shape();
+  if (colour) {
+    for (std::size_t i = 0; i < nm_.size(); ++i) work[i] = shift * nm_[i];
+    Spectrum::sigmoid_reflectance(*colour).evaluate(work, size(), work, kernels);
+  }
+  const LightRows::Weighting weighting = lights_->weighting(place);
+  LinearRgb sum = reflectance == nullptr
+                      ? weighting.film(work, nullptr, kernels)
+                      : weighting.film(reflectance->values, colour ? work : nullptr, kernels);
   // Splines do not follow kinks: docs/colour.md equation (c3).
   if (reflectance != nullptr) {
     const Kinks kinks = kinks_of(reflectance->spectrum->form(), reflectance->shift);
     for (int i = 0; i < kinks.count; ++i) {
       const auto [nm, jump] = kinks.list[i];
-      sum += (colour ? jump * colour->at(shift * nm) : jump) * place->left_out(nm);
+      sum += (colour ? jump * colour->at(shift * nm) : jump) * weighting.left_out(nm);
     }
   }
   if (colour) {
@@ -123,7 +150,7 @@ LinearRgb WavelengthSet::film_under(const Spectrum& light, double shift, const S
     for (int i = 0; i < kinks.count; ++i) {
       const auto [nm, jump] = kinks.list[i];
       const double at = reflectance == nullptr ? 1.0 : reflectance->spectrum->at(reflectance->shift * nm);
-      sum += jump * at * place->left_out(nm);
+      sum += jump * at * weighting.left_out(nm);
     }
   }
   return sum;
@@ -146,19 +173,22 @@ WavelengthSet::Upsampled WavelengthSet::upsampled(const LinearRgb& rgb, double s
 }
 
 SigmoidReflectance WavelengthSet::match(const SigmoidReflectance& start, const LinearRgb& rgb) const {
-  const LightRows::Row& white = *lights_->at(Spectrum::d65(), 1.0)->low;
+  static const SpectralKernels& widest = spectral_kernels(InstructionSet::widest);
+  const LightRows::Weights& white = lights_->of_white();
+  const double* const weights[3] = {white.red.data(), white.green.data(), white.blue.data()};
   const auto see = [&](const SigmoidReflectance& shape) {
+    SpectrumForm form;
+    form.c0 = shape.c0;
+    form.c1 = shape.c1;
+    form.c2 = shape.c2;
+    form.middle = shape.middle;
+    form.half = shape.half;
+    double sums[4][3];
+    widest.film_and_slopes(form, nm_.data(), places_.data(), weights, size(), sums);
     Seen seen;
-    for (std::size_t i = 0; i < nm_.size(); ++i) {
-      const double x = (shape.c0 * nm_[i] + shape.c1) * nm_[i] + shape.c2;
-      const double q = 1.0 / std::sqrt(1.0 + x * x);
-      const LinearRgb weight{white.red[i], white.green[i], white.blue[i]};
-      seen.colour += (shape.middle + shape.half * x * q) * weight;
-      const LinearRgb slope = (shape.half * q * q * q) * weight;
-      const double t = places_[i];
-      seen.slopes[0] += (t * t) * slope;
-      seen.slopes[1] += t * slope;
-      seen.slopes[2] += slope;
+    for (int c = 0; c < 3; ++c) {
+      seen.colour[c] = sums[0][c];
+      for (int k = 0; k < 3; ++k) seen.slopes[k][c] = sums[k + 1][c];
     }
     return seen;
   };

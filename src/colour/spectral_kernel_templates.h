@@ -6,6 +6,9 @@
 #include "cie_tables.h"
 #include "planck.h"
 
+// On a lambda of a kernel: see base/lanes.h.
+#define BACKLIGHT_INLINED __attribute__((always_inline))
+
 namespace backlight {
 
 /// D65 from 360 to 830 nm by straight lines: value and rise over the next 5 nm; the last has none.
@@ -37,7 +40,7 @@ template <int N>
 BACKLIGHT_LANES LanePairs<N> load_pairs(const double (*table)[2], const long long (&index)[N]) {
 #if defined(__AVX512F__)
   if constexpr (N == 8) {
-    const auto join = [&](int i) __attribute__((always_inline)) {
+    const auto join = [&](int i) BACKLIGHT_INLINED {
       const __m256d low = _mm256_set_m128d(_mm_loadu_pd(table[index[i + 2]]), _mm_loadu_pd(table[index[i]]));
       const __m256d high =
           _mm256_set_m128d(_mm_loadu_pd(table[index[i + 6]]), _mm_loadu_pd(table[index[i + 4]]));
@@ -161,43 +164,93 @@ struct SpectralKernelsOf {
   static constexpr int block = 8;  ///< terms of which each has a sum of its own
   static constexpr int parts = block / N;
 
-  static BACKLIGHT_LANES void add_block(const double* const (&weights)[3], const double* a, const double* b,
-                                        int at, V (&sum)[3][parts]) {
-    for (int k = 0; k < parts; ++k) {
-      V x = V::load(a + k * N);
-      if (b != nullptr) x = x * V::load(b + k * N);
-      for (int c = 0; c < 3; ++c) sum[c][k] = sum[c][k] + x * V::load(weights[c] + at + k * N);
-    }
-  }
+  /// Sums over terms, each in `block` parts.
+  template <int sums>
+  struct Parts {
+    V of[sums][parts];
 
-  static BACKLIGHT_LANES void fill(const double* from, int n, double (&to)[block]) {
-    for (int k = 0; k < block; ++k) to[k] = k < n ? from[k] : 0.0;
+    BACKLIGHT_LANES Parts() {
+      for (auto& sum : of) {
+        for (V& part : sum) part = 0.0;
+      }
+    }
+    BACKLIGHT_LANES double total(int i) const {
+      double s[block];
+      for (int k = 0; k < parts; ++k) of[i][k].store(s + k * N);
+      return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+    }
+  };
+
+  /// term(k, load) for the k-th part of each block; load(from) has its numbers, and 0 beyond n.
+  template <class Term>
+  static BACKLIGHT_LANES void for_parts(int n, const Term& term) {
+    int i = 0;
+    for (; i + block <= n; i += block) {
+      for (int k = 0; k < parts; ++k) {
+        term(k, [&](const double* from) BACKLIGHT_INLINED { return V::load(from + i + k * N); });
+      }
+    }
+    for (int k = 0; k < parts && i + k * N < n; ++k) {
+      term(k, [&](const double* from) BACKLIGHT_INLINED {
+        double some[N];
+        for (int lane = 0; lane < N; ++lane) {
+          const int at = i + k * N + lane;
+          some[lane] = at < n ? from[at] : 0.0;
+        }
+        return V::load(some);
+      });
+    }
   }
 
   static void film(const double* const (&weights)[3], const double* a, const double* b, int n,
                    double (&colour)[3]) {
-    V sum[3][parts];
-    for (auto& channel : sum) {
-      for (V& part : channel) part = 0.0;
-    }
-    int i = 0;
-    for (; i + block <= n; i += block) add_block(weights, a + i, b == nullptr ? b : b + i, i, sum);
-    if (i < n) {
-      double last_a[block], last_b[block], last_weight[3][block];
-      fill(a + i, n - i, last_a);
-      if (b != nullptr) fill(b + i, n - i, last_b);
-      for (int c = 0; c < 3; ++c) fill(weights[c] + i, n - i, last_weight[c]);
-      const double* const last_weights[3] = {last_weight[0], last_weight[1], last_weight[2]};
-      add_block(last_weights, last_a, b == nullptr ? b : last_b, 0, sum);
-    }
-    for (int c = 0; c < 3; ++c) {
-      double s[block];
-      for (int k = 0; k < parts; ++k) sum[c][k].store(s + k * N);
-      colour[c] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+    Parts<3> sum;
+    for_parts(n, [&](int k, const auto& load) BACKLIGHT_INLINED {
+      V x = load(a);
+      if (b != nullptr) x = x * load(b);
+      for (int c = 0; c < 3; ++c) sum.of[c][k] = sum.of[c][k] + x * load(weights[c]);
+    });
+    for (int c = 0; c < 3; ++c) colour[c] = sum.total(c);
+  }
+
+  static void film_between(const double* const (&weights)[4][3], const double* share, const double* a,
+                           const double* b, int n, double (&colour)[3]) {
+    Parts<3> sum;
+    for_parts(n, [&](int k, const auto& load) BACKLIGHT_INLINED {
+      V x = load(a);
+      if (b != nullptr) x = x * load(b);
+      for (int c = 0; c < 3; ++c) {
+        const V low = V(share[0]) * load(weights[0][c]) + V(share[1]) * load(weights[1][c]);
+        const V high = V(share[2]) * load(weights[2][c]) + V(share[3]) * load(weights[3][c]);
+        sum.of[c][k] = sum.of[c][k] + x * (low + high);
+      }
+    });
+    for (int c = 0; c < 3; ++c) colour[c] = sum.total(c);
+  }
+
+  static void film_and_slopes(const SpectrumForm& f, const double* nm, const double* t,
+                              const double* const (&weights)[3], int n, double (&sums)[4][3]) {
+    Parts<12> sum;
+    for_parts(n, [&](int k, const auto& load) BACKLIGHT_INLINED {
+      const V l = load(nm), at = load(t);
+      const V x = (V(f.c0) * l + V(f.c1)) * l + V(f.c2);
+      const V q = V(1.0) / sqrt(V(1.0) + x * x);
+      const V value = V(f.middle) + V(f.half) * x * q;
+      const V slope = V(f.half) * q * q * q;
+      const V factor[4] = {value, slope * at * at, slope * at, slope};
+      for (int c = 0; c < 3; ++c) {
+        const V weight = load(weights[c]);
+        for (int j = 0; j < 4; ++j) sum.of[3 * j + c][k] = sum.of[3 * j + c][k] + factor[j] * weight;
+      }
+    });
+    for (int j = 0; j < 4; ++j) {
+      for (int c = 0; c < 3; ++c) sums[j][c] = sum.total(3 * j + c);
     }
   }
 
-  static constexpr SpectralKernels table(const char* name) { return {name, N, evaluate, film}; }
+  static constexpr SpectralKernels table(const char* name) {
+    return {name, N, evaluate, film, film_between, film_and_slopes};
+  }
 };
 
 }  // namespace backlight

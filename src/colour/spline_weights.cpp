@@ -47,15 +47,15 @@ FilmWeights SplineWeights::under(const ObserverSamples& light) const {
   std::vector<Channels> weight(n), bend(n);
   for (std::size_t i = 0; i < samples_.size();) {
     const std::size_t cell = samples_[i].cell;
-    Channels value[2], curvature[2];
+    Channels all, value[2], curvature[2];
     for (; i < samples_.size() && samples_[i].cell == cell; ++i) {
       const Sample& s = samples_[i];
       const Channels here = seen(light, i);
-      for (int end = 0; end < 2; ++end) {
-        value[end] = add(value[end], s.value[end], here);
-        curvature[end] = add(curvature[end], s.curvature[end], here);
-      }
+      all = add(all, 1.0, here);
+      value[1] = add(value[1], s.value[1], here);
+      for (int end = 0; end < 2; ++end) curvature[end] = add(curvature[end], s.curvature[end], here);
     }
+    value[0] = add(all, -1.0, value[1]);  // the two shares of a value make 1
     for (std::size_t end = 0; end < 2; ++end) {
       weight[cell + end] = add(weight[cell + end], 1.0, value[end]);
       bend[cell + end] = add(bend[cell + end], 1.0, curvature[end]);

@@ -14,7 +14,8 @@ const SpectralKernels& kernels() {
 
 // By the same quadrature as shifted colours: docs/colour.md, "At rest".
 LinearRgb seen_under(const Spectrum& light, const SeenSpectrum& reflectance) {
-  const auto& [spectrum, set] = reflectance;
+  const Spectrum* spectrum = reflectance.spectrum;
+  const WavelengthSet* set = reflectance.set;
   if (light.has_features() || spectrum->has_features()) return colour_under(light, *spectrum);
   std::vector<double> values(set->nm().size()), work(set->nm().size());
   spectrum->evaluate(set->nm().data(), set->size(), values.data(), kernels());

@@ -9,10 +9,11 @@ SceneSpectra::SceneSpectra(const Scene& scene, const WavelengthSet& wavelengths)
   for (const Light& light : scene.lights) {
     steepest_light_ = std::max(steepest_light_, steepness_of(light.colour.spectrum));
   }
+  std::uint32_t number = 0;
   const auto matched = [&](const Colour& colour) {
     const double steepness = std::max(steepness_of(colour.spectrum), steepest_light_);
     const WavelengthSet& set = wavelengths.for_steepness(steepness);
-    return Matched{set.match(colour.spectrum, colour.rgb), &set};
+    return Matched{set.match(colour.spectrum, colour.rgb), &set, ++number};
   };
   reflectances_.reserve(scene.materials.size());
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -30,6 +31,12 @@ SceneSpectra::SceneSpectra(const Scene& scene, const WavelengthSet& wavelengths)
 
 SeenSpectrum SceneSpectra::reflectance(int material, int slot) const {
   return seen(slot == 0 ? reflectances_[static_cast<std::size_t>(material)] : other_squares_.at(material));
+}
+
+SeenSpectrum SceneSpectra::light(std::size_t index) const {
+  SeenSpectrum light = seen(lights_[index]);
+  light.one_lamp_doppler = scene_->lights[index].kind != LightKind::point;
+  return light;
 }
 
 SeenSpectrum SceneSpectra::emission(int material) const {

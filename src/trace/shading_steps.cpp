@@ -34,9 +34,25 @@ const double* shifted_wavelengths(const WavelengthSet& set, Scratch& s) {
   return s.wavelengths.data();
 }
 
+namespace {
+
+// A coloured light, `luminance` that of its D65 at `shift`.
+LinearRgb whole_colour(const SeenSpectrum& light, double shift, double luminance, Scratch& s) {
+  const ReflectedLight::Pair pair{light.number, light.spectrum, nullptr, light.set};
+  return luminance * s.reflected.per_luminance(pair, 1.0, shift, false, *s.kernels);
+}
+
+}  // namespace
+
 LinearRgb shifted_colour(const SeenSpectrum& emission, Scratch& s) {
   const Spectrum& spectrum = *emission.spectrum;
   if (spectrum.has_features()) return integrate_film(spectrum, s.shift);
+  if (emission.number != 0 && spectrum.shape()) {
+    const auto place = emission.set->lights().at(spectrum, s.shift);
+    if (place && ReflectedLight::has(*place)) {
+      return whole_colour(emission, s.shift, luminance(place->film()), s);
+    }
+  }
   return emission.set->film_under(spectrum, s.shift, nullptr, s.lamp.data(), *s.kernels);
 }
 
@@ -61,13 +77,22 @@ SeenSpectrum seen_reflectance(const ShadingContext& context, int index, double u
 
 }  // namespace
 
+namespace {
+
+void sample(const SeenSpectrum& reflectance, Scratch& s) {
+  const WavelengthSet& set = *reflectance.set;
+  reflectance.spectrum->evaluate(shifted_wavelengths(set, s), set.size(), s.reflectance.data(), *s.kernels);
+}
+
+}  // namespace
+
 Reflectance fill_reflectance(const ShadingContext& context, int index, double u, double v, Scratch& s) {
   Reflectance reflectance{seen_reflectance(context, index, u, v, s), {}};
-  const auto& [spectrum, set] = reflectance.seen;
-  if (spectrum->is_grey()) {
-    reflectance.grey = spectrum->at(visible_begin_nm);
-  } else if (!spectrum->has_features()) {
-    spectrum->evaluate(shifted_wavelengths(*set, s), set->size(), s.reflectance.data(), *s.kernels);
+  const Spectrum& spectrum = *reflectance.seen.spectrum;
+  if (spectrum.is_grey()) {
+    reflectance.grey = spectrum.at(visible_begin_nm);
+  } else if (!reflectance.is_looked_up()) {
+    sample(reflectance.seen, s);
   }
   return reflectance;
 }
@@ -75,21 +100,37 @@ Reflectance fill_reflectance(const ShadingContext& context, int index, double u,
 LampColours lamp_colours(const SeenSpectrum& lamp, DopplerFactor<Rest, Source> doppler, bool has_lobe,
                          const Reflectance& reflectance, Scratch& s) {
   const Spectrum& light = *lamp.spectrum;
+  const SeenSpectrum& seen = reflectance.seen;
   const double shift = wavelength_at_origin(doppler, s.shift);
-  const bool features = light.has_features();
   LampColours colours;
-  if (reflectance.grey || has_lobe) {
-    colours.whole = features ? integrate_film(light, shift)
-                             : lamp.set->film_under(light, shift, nullptr, s.lamp.data(), *s.kernels);
+  if (light.has_features()) {
+    if (reflectance.grey || has_lobe) colours.whole = integrate_film(light, shift);
+    colours.reflected = reflectance.grey ? *reflectance.grey * colours.whole
+                                         : integrate_film(light, shift, seen.spectrum, s.shift);
+    return colours;
   }
-  const auto& [spectrum, set] = reflectance.seen;
+  const auto place = lamp.set->lights().at(light, shift);
+  const bool known = place && ReflectedLight::has(*place);
+  const LinearRgb film = known ? place->film() : LinearRgb{0.0};
+  const double y = luminance(film);
+  if (reflectance.grey || has_lobe) {
+    colours.whole = !known          ? lamp.set->film_under(light, shift, nullptr, s.lamp.data(), *s.kernels)
+                    : light.shape() ? whole_colour(lamp, shift, y, s)
+                                    : film;
+  }
   if (reflectance.grey) {
     colours.reflected = *reflectance.grey * colours.whole;
-  } else if (features || spectrum->has_features()) {
-    colours.reflected = integrate_film(light, shift, spectrum, s.shift);
+  } else if (seen.spectrum->has_features()) {
+    colours.reflected = integrate_film(light, shift, seen.spectrum, s.shift);
+  } else if (known && reflectance.is_looked_up()) {
+    const ReflectedLight::Pair pair{std::uint64_t{seen.number} << 32 | lamp.number, &light, seen.spectrum,
+                                    seen.set};
+    colours.reflected =
+        y * s.reflected.per_luminance(pair, s.shift, doppler.value, lamp.one_lamp_doppler, *s.kernels);
   } else {
-    const WavelengthSet::Sampled sampled{s.reflectance.data(), spectrum, s.shift};
-    colours.reflected = set->film_under(light, shift, &sampled, s.lamp.data(), *s.kernels);
+    if (reflectance.is_looked_up()) sample(seen, s);
+    const WavelengthSet::Sampled sampled{s.reflectance.data(), seen.spectrum, s.shift};
+    colours.reflected = seen.set->film_under(light, shift, &sampled, s.lamp.data(), *s.kernels);
   }
   return colours;
 }

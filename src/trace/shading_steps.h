@@ -38,10 +38,12 @@ LinearRgb emitted_colour(const ShadingContext& context, int material, Scratch& s
 struct Reflectance {
   SeenSpectrum seen;
   std::optional<double> grey;  ///< its value, where it is the same at every wavelength
+
+  /// It is not of this point alone: what it makes of lamps is found in Scratch::reflected.
+  [[nodiscard]] bool is_looked_up() const { return seen.number != 0; }
 };
 
-/// That of a point; into s.reflectance too, unless it is grey or has features. Of a texture it stands in
-/// s.texel.
+/// That of a point. Of a texture it stands in s.texel, and sampled in s.reflectance.
 Reflectance fill_reflectance(const ShadingContext& context, int material, double u, double v, Scratch& s);
 
 /// Film colours of a lamp of unit strength.

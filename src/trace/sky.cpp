@@ -65,6 +65,7 @@ LinearRgb sky_shifted(const ShadingContext& context, const RestRayEvents& ray, S
   const LinearRgb rgb = glm::max(texture_at(sky, ray.direction), 0.0);
   const double scale = 2.0 * std::max({rgb.r, rgb.g, rgb.b});
   if (!(scale > 0.0)) return LinearRgb{0.0};
+  if (s.shift == 1.0) return rgb;  // which the spectrum would be matched to
   const auto [shape, set] = context.wavelengths->upsampled(rgb / scale, 0.0);
   s.texel = Spectrum::sigmoid_reflectance(shape);
   s.texel.evaluate(shifted_wavelengths(*set, s), set->size(), s.reflectance.data(), *s.kernels);

@@ -19,10 +19,11 @@ class SplineWeights;
 /// equation (c1). The light itself is summed over the observer's 471 samples, so it may be as uneven or as
 /// steep as it likes; the reflectance alone is interpolated.
 ///
-/// There are rows of D65 by its shift s, of each doubling 1024, and rows of blackbodies by temperature times
-/// shift, all of which are one family, of each doubling 256. In between, the film colour of the whole light
-/// follows the cubic that has the rows' values and slopes, weights the cubic through the four rows around. A
-/// row is made when it is first asked for, from any thread, and depends on nothing but its number.
+/// There are rows of D65 by its shift s, of each doubling 128, and rows of blackbodies by temperature times
+/// shift, all of which are one family, of each doubling 256, or 64 with weights. In between, the film colour
+/// of the whole light follows the cubic that has the rows' values and slopes, weights the cubic through the
+/// four rows around. A row, and its weights, are made when they are first asked for, from any thread, and
+/// depend on nothing but the row's number.
 class LightRows {
  public:
   /// What one row has, of light divided by e^log_scale.
@@ -31,23 +32,38 @@ class LightRows {
     double log_slope = 0.0;  ///< by the shift, or by the temperature
     LinearRgb film{0.0};     ///< colour of the whole light
     LinearRgb film_slope{0.0};
+  };
+
+  /// What a reflectance makes of that.
+  struct Weights {
     std::vector<double> red, green, blue;  ///< what a reflectance 1 at each wavelength alone adds
     /// What the interpolation of max(0, λ - k) leaves out, for k = 360, 361, ... 830 nm: three numbers each.
     std::vector<float> left_out;
   };
 
+  /// Which rows: D65's, blackbodies', or a row made for one place.
+  enum class Family { daylight, bodies, alone };
+
   /// A light at a shift, between two rows. Good until the next one is asked for in the same thread.
   struct Place {
+    Family family;
     const Row* low;
     const Row* high;
-    double fraction;                   ///< of the way from one to the other, in [0, 1)
-    double step;                       ///< of shift or temperature between them
-    double scale;                      ///< on what they have
-    std::array<const Row*, 4> around;  ///< with those two in it
-    std::array<double, 4> share;       ///< of each in the cubic through all four
+    double fraction;  ///< of the way from one to the other, in [0, 1)
+    double step;      ///< of shift or temperature between them
+    double scale;     ///< on what they have
+    double at;        ///< the shift or the temperature
 
     /// Colour of the whole light.
     [[nodiscard]] LinearRgb film() const;
+  };
+
+  /// The weights of a place, of its scale 1. Good until those of another place are asked for.
+  struct Weighting {
+    const LightRows* rows;
+    std::array<const Weights*, 4> around;
+    std::array<double, 4> share;  ///< of each in the cubic through all four
+
     /// Colour under reflectance[i] (or reflectance[i] second[i]) at wavelength i.
     [[nodiscard]] LinearRgb film(const double* reflectance, const double* second,
                                  const SpectralKernels& kernels) const;
@@ -64,19 +80,26 @@ class LightRows {
   /// D65, a blackbody, or the D65 in an illuminant, at `shift` > 0 times each wavelength; empty for others.
   [[nodiscard]] std::optional<Place> at(const Spectrum& light, double shift) const;
 
+  [[nodiscard]] Weighting weighting(const Place& place) const;
+
+  /// Those of D65 at rest.
+  [[nodiscard]] const Weights& of_white() const;
+
  private:
-  using Rows = std::vector<std::atomic<const Row*>>;
+  template <class T>
+  using Made = std::vector<std::atomic<const T*>>;
+  struct Rows {
+    Rows(std::size_t count, std::size_t weighed) : rows(count), weights(weighed) {}
+    Made<Row> rows;
+    Made<Weights> weights;
+  };
 
-  [[nodiscard]] Place daylight(double shift, double scale) const;
   [[nodiscard]] Place body(double kelvin, double log_divisor, double scale) const;
-  template <class Range, class Make>
-  [[nodiscard]] Place between(Rows& rows, const Range& range, double x, const Make& make) const;
-  template <class Make>
-  [[nodiscard]] const Row& row(Rows& rows, std::size_t index, const Make& make) const;
-  [[nodiscard]] Row make_daylight(double shift) const;
-  [[nodiscard]] Row make_body(double kelvin) const;
-  void fill_weights(const std::array<double, 471>& light, Row& row) const;
+  [[nodiscard]] const Weights& weights_of(Family family, std::size_t index) const;
+  [[nodiscard]] Weights make_weights(const std::array<double, 471>& light) const;
 
+  std::vector<double> nm_;
+  std::vector<std::size_t> beyond_;  // of nm_, from each of the observer's samples on
   std::unique_ptr<const SplineWeights> spline_;
   mutable Rows daylight_, bodies_;
 };

@@ -60,6 +60,11 @@ class WavelengthSet {
   LinearRgb film_under(const Spectrum& light, double shift, const Sampled* reflectance, double* work,
                        const SpectralKernels& kernels) const;
 
+  /// The same, of a light that `LightRows` has, divided by the luminance of all of it; of coloured light, by
+  /// that of the D65 in it.
+  [[nodiscard]] LinearRgb film_per_luminance(const Spectrum& light, double shift, const Sampled* reflectance,
+                                             double* work, const SpectralKernels& kernels) const;
+
   /// The set for a spectrum whose slope is nowhere more than `steepness` per nm: this one, or `fine()`.
   [[nodiscard]] const WavelengthSet& for_steepness(double steepness) const;
 
@@ -88,6 +93,9 @@ class WavelengthSet {
   [[nodiscard]] Spectrum match(const Spectrum& spectrum, const LinearRgb& rgb) const;
 
  private:
+  LinearRgb film_at(const LightRows::Place& place, const Spectrum& light, double shift,
+                    const Sampled* reflectance, double* work, const SpectralKernels& kernels) const;
+
   std::vector<double> nm_;
   std::vector<double> red_;
   std::vector<double> green_;

@@ -32,6 +32,13 @@ struct SpectralKernels {
   /// at the end, whatever the number of lanes.
   void (*film)(const double* const (&weights)[3], const double* a, const double* b, int n,
                double (&colour)[3]);
+  /// The same with the weights Σ_k share[k] weights[k][c], k < 4.
+  void (*film_between)(const double* const (&weights)[4][3], const double* share, const double* a,
+                       const double* b, int n, double (&colour)[3]);
+  /// Of a sigmoid at nm[i] in 360..830: sums[0][c] = Σ_i value weights[c][i], and its derivatives by what is
+  /// added to the polynomial: t[i]^2 in sums[1], t[i] in sums[2], 1 in sums[3].
+  void (*film_and_slopes)(const SpectrumForm& sigmoid, const double* nm, const double* t,
+                          const double* const (&weights)[3], int n, double (&sums)[4][3]);
 };
 
 /// The kernels, if this machine runs them; `baseline` always does.

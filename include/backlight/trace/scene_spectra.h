@@ -1,6 +1,7 @@
 // The spectra of a scene's colours as an image's wavelengths have them.
 #pragma once
 
+#include <cstdint>
 #include <unordered_map>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace backlight {
 struct SeenSpectrum {
   const Spectrum* spectrum = nullptr;
   const WavelengthSet* set = nullptr;
+  std::uint32_t number = 0;  ///< no other spectrum's of the scene; 0: it is that of one point
+  bool one_lamp_doppler =
+      false;  ///< a lamp whose light reaches all points of a frame with one Doppler factor
 };
 
 /// Spectra made from red, green and blue, with shapes that give back just these at rest when they are sampled
@@ -27,7 +31,7 @@ class SceneSpectra {
   [[nodiscard]] SeenSpectrum reflectance(int material, int slot) const;
   /// Of a material that emits.
   [[nodiscard]] SeenSpectrum emission(int material) const;
-  [[nodiscard]] SeenSpectrum light(std::size_t index) const { return seen(lights_[index]); }
+  [[nodiscard]] SeenSpectrum light(std::size_t index) const;
   [[nodiscard]] SeenSpectrum sky() const { return seen(sky_); }
   /// The greatest slope of a coloured light, which what it lights has to be sampled by too.
   [[nodiscard]] double steepest_light() const { return steepest_light_; }
@@ -36,8 +40,9 @@ class SceneSpectra {
   struct Matched {
     Spectrum spectrum;
     const WavelengthSet* set = nullptr;
+    std::uint32_t number = 0;
   };
-  static SeenSpectrum seen(const Matched& m) { return {&m.spectrum, m.set}; }
+  static SeenSpectrum seen(const Matched& m) { return {&m.spectrum, m.set, m.number}; }
 
   const Scene* scene_ = nullptr;
   const WavelengthSet* wavelengths_ = nullptr;

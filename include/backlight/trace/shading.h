@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "backlight/colour/reflected_light.h"
 #include "backlight/trace/illumination.h"
 #include "backlight/trace/rest_colours.h"
 
@@ -46,6 +47,7 @@ struct Scratch {
   std::vector<double> reflectance;
   std::vector<double> lamp;  ///< room for what a lamp takes
   Spectrum texel;            ///< the reflectance of a point of a texture
+  ReflectedLight reflected;
 };
 
 /// What the shading of one image reads.

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "backlight/colour/observer.h"
+#include "cie_sum.h"
 
 namespace backlight {
 namespace {
@@ -29,16 +30,6 @@ struct Polyline {
 
 Polyline triangle(double centre, double half_width) {
   return {{centre - half_width, centre, centre + half_width}, {0.0, 1.0, 0.0}};
-}
-
-// The film's Y of D65 is 1: the observer's sums are divided by this.
-double d65_sum() {
-  static const double sum = [] {
-    double y = 0.0;
-    for (int nm = 360; nm <= 830; ++nm) y += Spectrum::d65().at(nm) * colour_matching_functions(nm).y;
-    return y;
-  }();
-  return sum;
 }
 
 LinearRgb film_weight(double nm) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backlight/colour/spectrum.h"
+#include "cie_sum.h"
 
 namespace backlight {
 namespace {
@@ -195,13 +196,8 @@ class ShiftedColours : public testing::Test {
       sampled += surface.at(doppler * nm) * lamp.at(lamp_doppler * nm) * set.weight(i);
     }
     // The tables' sums are per 1 nm; a set is normalised to D65.
-    static const double d65_sum = [] {
-      double sum = 0.0;
-      for (int nm = 360; nm <= 830; ++nm) sum += Spectrum::d65().at(nm) * colour_matching_functions(nm).y;
-      return sum;
-    }();
     const double exposure = 1.0 / luminance(white);
-    return delta_e_2000(lab_from_rgb(exact * exposure), lab_from_rgb(sampled * (exposure * d65_sum)));
+    return delta_e_2000(lab_from_rgb(exact * exposure), lab_from_rgb(sampled * (exposure * d65_sum())));
   }
 };
 
