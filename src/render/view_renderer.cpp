@@ -101,9 +101,9 @@ void ViewRenderer::trace_missing(const PixelBox& box, const std::atomic<bool>& s
   }
   std::vector<TilePixel> pixels = memory.missing.pixels;
   std::ranges::sort(pixels, {}, [](const TilePixel& pixel) { return std::pair(pixel.y, pixel.x); });
-  for (const auto [x, y] : pixels) {
+  for (const TilePixel& missing : pixels) {
     if (stop.load(std::memory_order_relaxed)) return;
-    at_pixel(x, y, [&] { pixel(x, y, memory); });
+    at_pixel(missing.x, missing.y, [&] { pixel(missing.x, missing.y, memory); });
   }
 }
 

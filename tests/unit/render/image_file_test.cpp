@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <limits>
 #include <thread>
 
 #include "backlight/base/files.h"
@@ -62,7 +63,7 @@ TEST_F(ImageFileTest, HasTheBytesOfTheWholePicture) {
   for (HelperThread* with : {static_cast<HelperThread*>(nullptr), &helper}) {
     PartialImage partial(layout, rows, false);
     ImageFile file(folder / "a.exr", header, ColourStorage::automatic, partial, with);
-    for (const std::size_t band : {1, 0, 3, 4, 2}) {  // as several threads may be done with them
+    for (const std::size_t band : {1U, 0U, 3U, 4U, 2U}) {  // as several threads may be done with them
       finish(partial, band);
       file.take_finished();
     }
@@ -151,7 +152,7 @@ TEST_F(ImageFileTest, APartialImageGoesOnToTheSameBytes) {
     {
       PartialImage partial(layout, rows, false);
       ImageFile file(folder / "a.exr", header, storage, partial, nullptr);
-      for (const std::size_t band : {0, 1}) finish(partial, band);
+      for (const std::size_t band : {0U, 1U}) finish(partial, band);
       file.take_finished();
       finish(partial, 2, 25);
       ASSERT_TRUE(write_partial(folder / "p.exr", partial, header, &file).ok());
