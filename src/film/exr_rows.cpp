@@ -75,24 +75,26 @@ std::uint16_t rounded_to_half(float value) {
 /// Two bytes of a value, the lower ones first: a half, or a half of a float.
 using Words = std::vector<std::uint16_t>;
 
-void append_halves(std::span<const float> values, bool all_in_range, Words& words) {
-  words.resize(words.size() + values.size());
-  std::uint16_t* const to = words.data() + (words.size() - values.size());
-  if (all_in_range) {
-    std::ranges::transform(values, to, rounded_to_half);
-  } else {
-    std::ranges::transform(values, to, [](float value) { return half(value).bits(); });
-  }
+/// Each puts values at `to` and returns the place behind them.
+std::uint16_t* put_halves(std::span<const float> values, bool all_in_range, std::uint16_t* to) {
+  if (all_in_range) return std::ranges::transform(values, to, rounded_to_half).out;
+  return std::ranges::transform(values, to, [](float value) { return half(value).bits(); }).out;
 }
 
-void append_floats(std::span<const float> values, Words& words) {
-  words.resize(words.size() + 2 * values.size());
-  std::uint16_t* to = words.data() + (words.size() - 2 * values.size());
+std::uint16_t* put_floats(std::span<const float> values, std::uint16_t* to) {
   for (const float value : values) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     *to++ = static_cast<std::uint16_t>(bits);
     *to++ = static_cast<std::uint16_t>(bits >> 16U);
   }
+  return to;
+}
+
+std::size_t words_of_row(const ImageLayout& rows) {
+  std::size_t words = 0;
+  for (const ChannelInfo& channel : rows.channels)
+    words += channel.precision == ChannelPrecision::half ? 1 : 2;
+  return words * static_cast<std::size_t>(rows.data.width());
 }
 
 /// All lower bytes, then all upper ones, each byte but the first as its difference from the one before, plus
@@ -202,16 +204,15 @@ std::string chunks_of_rows(const ImageLayout& rows, std::span<const std::span<co
   const auto width = static_cast<std::size_t>(rows.data.width());
   std::string chunks;
   for (int first = rows.data.y0; first < rows.data.y1; first += exr_chunk_rows) {
-    words.clear();
-    for (int row = first; row < std::min(first + exr_chunk_rows, rows.data.y1); ++row) {
+    const int end = std::min(first + exr_chunk_rows, rows.data.y1);
+    words.resize(words_of_row(rows) * static_cast<std::size_t>(end - first));
+    std::uint16_t* to = words.data();
+    for (int row = first; row < end; ++row) {
       const std::size_t begin = width * static_cast<std::size_t>(row - rows.data.y0);
       for (const std::size_t channel : order) {
         const std::span<const float> values = planes[channel].subspan(begin, width);
-        if (rows.channels[channel].precision == ChannelPrecision::half) {
-          append_halves(values, all_in_range[channel] != 0, words);
-        } else {
-          append_floats(values, words);
-        }
+        const bool is_half = rows.channels[channel].precision == ChannelPrecision::half;
+        to = is_half ? put_halves(values, all_in_range[channel] != 0, to) : put_floats(values, to);
       }
     }
     maker.append(first, words, chunks);
