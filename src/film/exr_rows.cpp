@@ -125,17 +125,11 @@ class ChunkMaker {
   /// Appends the chunk of these values, of which the first row is number `row`.
   void append(int row, const Words& words, std::string& chunks) {
     split_into_differences(words, differences_);
-    packed_.resize(deflateBound(&stream_, differences_.size()));
-    stream_.next_in = differences_.data();
-    stream_.avail_in = static_cast<uInt>(differences_.size());
-    stream_.next_out = packed_.data();
-    stream_.avail_out = static_cast<uInt>(packed_.size());
-    if (deflate(&stream_, Z_FINISH) != Z_STREAM_END || deflateReset(&stream_) != Z_OK)
-      throw std::runtime_error("zlib fails");
-    const std::size_t size = packed_.size() - stream_.avail_out;
+    // Chunks of an empty sky follow one another.
+    if (differences_ != packed_differences_) pack();
     // What does not get smaller is stored as it is.
-    const bool is_smaller = size < differences_.size();
-    const std::size_t stored = is_smaller ? size : differences_.size();
+    const bool is_smaller = packed_size_ < 2 * words.size();
+    const std::size_t stored = is_smaller ? packed_size_ : 2 * words.size();
     char numbers[8];
     char* next = numbers;
     Imf::Xdr::write<Imf::CharPtrIO>(next, row);
@@ -152,9 +146,24 @@ class ChunkMaker {
   }
 
  private:
+  void pack() {
+    packed_differences_.clear();  // should it fail
+    packed_.resize(deflateBound(&stream_, differences_.size()));
+    stream_.next_in = differences_.data();
+    stream_.avail_in = static_cast<uInt>(differences_.size());
+    stream_.next_out = packed_.data();
+    stream_.avail_out = static_cast<uInt>(packed_.size());
+    const bool is_packed = deflate(&stream_, Z_FINISH) == Z_STREAM_END;
+    packed_size_ = packed_.size() - stream_.avail_out;
+    if (deflateReset(&stream_) != Z_OK || !is_packed) throw std::runtime_error("zlib fails");
+    std::swap(packed_differences_, differences_);
+  }
+
   z_stream stream_{};
   std::vector<std::uint8_t> differences_;
+  std::vector<std::uint8_t> packed_differences_;  // of which `packed_` is made
   std::vector<std::uint8_t> packed_;
+  std::size_t packed_size_ = 0;
 };
 
 /// In the order of the file.
