@@ -7,9 +7,8 @@
 namespace backlight {
 namespace {
 
-// So many small images hide a disk that takes ten times as long as tracing; of large ones two or three do.
+// So many small images hide a disk that takes ten times as long as tracing.
 constexpr std::size_t most_images = 24;
-constexpr std::size_t most_bytes = std::size_t{256} << 20U;
 
 template <typename Work>
 Result<void> result_of(const Work& work) {
@@ -29,20 +28,13 @@ DeliveryQueue::~DeliveryQueue() {
   has_work_.notify_all();
 }
 
-bool DeliveryQueue::has_room_for(std::size_t bytes) const {
-  if (on_their_way_.empty()) return true;
-  return on_their_way_.size() < most_images && bytes_ + bytes <= most_bytes;
-}
-
-void DeliveryQueue::add(std::size_t bytes, Store store, Tell tell) {
+void DeliveryQueue::add(Store store, Tell tell) {
   Lock lock(guard_);
-  has_room_.wait(lock, [&] { return has_room_for(bytes); });
+  has_room_.wait(lock, [this] { return on_their_way_.size() < most_images; });
   auto item = std::make_unique<Item>();
-  item->bytes = bytes;
   item->store = std::move(store);
   item->tell = std::move(tell);
   on_their_way_.push_back(std::move(item));
-  bytes_ += bytes;
   ++not_taken_;
   if (idle_ < not_taken_) start_thread();
   if (!threads_.empty()) {
@@ -103,7 +95,6 @@ void DeliveryQueue::tell_in_order(Lock& lock) {
     lock.unlock();
     if (!result_of([&] { return item.tell(*item.stored); }).ok()) failed_.store(true);
     lock.lock();
-    bytes_ -= item.bytes;
     on_their_way_.pop_front();
     has_room_.notify_all();
   }

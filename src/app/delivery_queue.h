@@ -18,7 +18,7 @@ namespace backlight {
 
 /// To be sure that a small image is on the disk may take longer than to trace it. Here images are stored by
 /// threads of their own, several at a time; what is told of them comes in their order. At any moment a
-/// bounded number of images, and of bytes, is on its way. For use by one thread.
+/// bounded number of images is on its way. For use by one thread.
 class DeliveryQueue {
  public:
   using Store = std::function<Result<void>()>;
@@ -31,8 +31,8 @@ class DeliveryQueue {
   DeliveryQueue& operator=(const DeliveryQueue&) = delete;
 
   /// `store` runs beside those of other images. `tell` follows when all images before have told; what it
-  /// returns is the end of the matter. Waits while too much is on its way; `bytes` are held until then.
-  void add(std::size_t bytes, Store store, Tell tell);
+  /// returns is the end of the matter. Waits while too many are on their way.
+  void add(Store store, Tell tell);
 
   /// Waits until nothing is on its way.
   void wait();
@@ -42,7 +42,6 @@ class DeliveryQueue {
 
  private:
   struct Item {
-    std::size_t bytes;
     Store store;
     Tell tell;
     bool is_taken = false;
@@ -50,7 +49,6 @@ class DeliveryQueue {
   };
   using Lock = std::unique_lock<std::mutex>;
 
-  [[nodiscard]] bool has_room_for(std::size_t bytes) const;
   void work();
   bool store_one(Lock& lock);
   void tell_in_order(Lock& lock);
@@ -61,7 +59,6 @@ class DeliveryQueue {
   std::condition_variable has_work_;
   std::condition_variable has_room_;
   std::deque<std::unique_ptr<Item>> on_their_way_;
-  std::size_t bytes_ = 0;
   std::size_t not_taken_ = 0;
   std::size_t idle_ = 0;
   bool is_telling_ = false;

@@ -87,7 +87,8 @@ bool RenderRun::begin_threads() {
     progress_.say("backlight: warning: " + std::to_string(threads_->count()) + " of " +
                   std::to_string(wanted) + " threads could be begun: " + reason());
   }
-  serve_in_background();  // the storing threads too, which are begun from here
+  serve_in_background();  // the storing threads and the helper too, which are begun from here
+  if (wanted < usable_threads()) helper_.emplace();
   return true;
 }
 
@@ -242,13 +243,24 @@ RenderRun::Outcome RenderRun::start(Work& work) {
   work.header = image_header(work.scene, work.settings.wavelengths, recogniser_.origin(*work.image),
                              creation_time.value());
   if (const Outcome found = find_memory(work); found != Outcome::made) return found;
-  work.partial = begin_image(work.scene, work.settings);
-  if (options_.resume) resume(*work.image, work.partial);
+  begin_pixels(work);
+  if (options_.resume) resume(work);
   progress_.begin_image(work.image->exr.string(), tile_count(work.scene, work.settings));
-  work.tracing =
-      std::make_unique<ImageTracing>(work.scene, work.settings, work.partial, pause_requested(), &progress_);
+  begin_tracing(work);
   threads_->begin(*work.tracing);
   return Outcome::begun;
+}
+
+void RenderRun::begin_pixels(Work& work) {
+  work.file.reset();
+  work.partial = begin_image(work.scene, work.settings);
+  work.file = std::make_unique<ImageFile>(work.image->exr, work.header, options_.storage, *work.partial,
+                                          helper_ ? &*helper_ : nullptr);
+}
+
+void RenderRun::begin_tracing(Work& work) {
+  work.tracing = std::make_unique<ImageTracing>(work.scene, work.settings, *work.partial, pause_requested(),
+                                                &progress_, work.file.get());
 }
 
 bool RenderRun::has_lost_claim(const Work& work) {
@@ -256,21 +268,28 @@ bool RenderRun::has_lost_claim(const Work& work) {
 }
 
 RenderRun::Outcome RenderRun::finish(const std::shared_ptr<Work>& work) {
+  ImageFile& file = *work->file;
   while (true) {
     work->statistics.seconds += threads_->finish();
-    if (work->partial.is_complete()) {
+    file.settle();
+    if (file.is_lost()) break;
+    if (work->partial->is_complete() && !file.is_to_begin_anew()) {
       // The image itself is at hand; where there is another behind it, the snapshot is of that.
       if (in_hand_.size() == 1) take_snapshot_request();
       break;
     }
     if (take_snapshot_request() && !stop_requested() && !has_lost_claim(*work)) snapshot(*work);
     if (stop_requested()) return stop(*work);
+    if (file.is_to_begin_anew()) {
+      file.begin_anew();
+      if (!work->partial->keeps_rows()) begin_tracing(*work);  // what was counted is counted again
+    }
     progress_.restart_images();
     threads_->go_on_with(*work->tracing);
   }
   const double seconds = last_seconds_ = work->statistics.seconds;
   work->statistics = work->tracing->statistics();
-  work->statistics.seconds = seconds;
+  work->statistics.seconds = std::max(0.0, seconds - file.seconds() / threads_->count());
   work->tracing.reset();
   if (has_lost_claim(*work)) {
     progress_.say("backlight: warning: " + work->image->exr.string() +
@@ -280,12 +299,13 @@ RenderRun::Outcome RenderRun::finish(const std::shared_ptr<Work>& work) {
   return deliver(work);
 }
 
-void RenderRun::resume(const PlannedImage& image, PartialImage& partial) {
-  const std::filesystem::path path = partial_path(image.exr);
+void RenderRun::resume(Work& work) {
+  const std::filesystem::path path = partial_path(work.image->exr);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return;
-  const auto read = read_partial(path, recogniser_.identity(image), partial);
+  const auto read = read_partial(path, recogniser_.identity(*work.image), *work.partial, work.file.get());
   if (!read.ok()) {
+    begin_pixels(work);
     progress_.say("backlight: warning: " + read.error() + "; beginning anew");
   } else if (options_.verbosity != Verbosity::quiet) {
     progress_.say("going on with " + path.string());
@@ -294,7 +314,7 @@ void RenderRun::resume(const PlannedImage& image, PartialImage& partial) {
 
 void RenderRun::snapshot(const Work& work) {
   const std::filesystem::path path = partial_path(work.image->exr);
-  const auto written = write_partial(path, work.partial, work.header);
+  const auto written = write_partial(path, *work.partial, work.header, work.file.get());
   if (!written.ok()) {
     progress_.say("backlight: warning: " + written.error());  // the image itself may yet find its place
   } else if (options_.verbosity != Verbosity::quiet) {
@@ -304,10 +324,10 @@ void RenderRun::snapshot(const Work& work) {
 
 RenderRun::Outcome RenderRun::stop(const Work& work) {
   const bool behind_another = std::exchange(has_stopped_, true);
-  if (behind_another && !work.partial.has_any()) return Outcome::stopped;
+  if (behind_another && !work.partial->has_any()) return Outcome::stopped;
   if (has_lost_claim(work)) return Outcome::stopped;  // what another has made by now stays alone
   const std::filesystem::path path = partial_path(work.image->exr);
-  if (const auto written = write_partial(path, work.partial, work.header); !written.ok())
+  if (const auto written = write_partial(path, *work.partial, work.header, work.file.get()); !written.ok())
     return trouble(written.error());
   if (options_.verbosity != Verbosity::quiet) {
     progress_.say("stopped; wrote " + path.string() + ", which --resume finishes");

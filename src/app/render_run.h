@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "backlight/base/claim.h"
-#include "backlight/render/image_faults.h"
+#include "backlight/base/helper_thread.h"
+#include "backlight/render/image_file.h"
 #include "backlight/render/image_header.h"
 #include "backlight/render/progress.h"
 #include "backlight/render/render.h"
@@ -42,12 +43,12 @@ class RenderRun {
     Scene scene;
     Needs needs;
     RenderSettings settings;
-    PartialImage partial;
+    std::unique_ptr<PartialImage> partial;  ///< until all of it is in the file
+    std::unique_ptr<ImageFile> file;
     std::unique_ptr<ImageTracing> tracing;  ///< while it is in the hands of the threads
     ExrHeader header;
     std::unique_ptr<Claim> claim;  ///< null: without
     RenderStatistics statistics;
-    ImageFaults faults;
     bool lacks_memory = false;           ///< to be stored
     std::vector<std::string> png_lines;  ///< to be said of the PNG
     std::string record;                  ///< the object of --stats
@@ -65,6 +66,8 @@ class RenderRun {
   Outcome begin(const PlannedImage& image, std::unique_ptr<Claim> claim);
   Outcome scene_is_wrong(const PlannedImage& image);
   Outcome start(Work& work);
+  void begin_pixels(Work& work);
+  void begin_tracing(Work& work);
   /// Throws what to do instead where the image's pixels do not fit into memory.
   Outcome find_memory(const Work& work);
   Outcome finish(const std::shared_ptr<Work>& work);
@@ -83,7 +86,7 @@ class RenderRun {
   [[nodiscard]] Result<std::vector<std::string>> complete_png(const PlannedImage& image) const;
   void tell_of_png(const PlannedImage& image, const std::vector<std::string>& lines);
   void remove_superseded(const PlannedImage& image) const;
-  void resume(const PlannedImage& image, PartialImage& partial);
+  void resume(Work& work);
   void snapshot(const Work& work);
   static std::string lack_of_memory(const FilmSettings& film);
   void tell(const Work& work);
@@ -106,6 +109,7 @@ class RenderRun {
   std::vector<const PlannedImage*> waiting_;   // in the hands of other processes
   std::vector<std::filesystem::path> left_;    // claims beside complete images
   std::deque<std::shared_ptr<Work>> in_hand_;  // being traced, or begun behind those
+  std::optional<HelperThread> helper_;         // where a CPU is left for one
   std::optional<TracingThreads> threads_;      // behind what they trace
   DeliveryQueue deliveries_;                   // last: what is on its way uses the others
 };

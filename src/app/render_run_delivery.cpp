@@ -14,10 +14,8 @@
 namespace backlight {
 
 RenderRun::Outcome RenderRun::deliver(const std::shared_ptr<Work>& work) {
-  const Image& image = work->partial.image;
-  const std::size_t bytes = image.channel_count() * image.plane(0).size_bytes();
+  work->partial.reset();  // the file has it
   deliveries_.add(
-      bytes,
       [this, work]() -> Result<void> {
         try {
           return store(*work);
@@ -41,13 +39,10 @@ RenderRun::Outcome RenderRun::deliver(const std::shared_ptr<Work>& work) {
 
 Result<void> RenderRun::store(Work& work) const {
   const PlannedImage& image = *work.image;
-  work.faults = faults_of(work.partial.image);
   std::error_code ignored;
   // The PNG of an earlier image must not stand beside this one, should the process end between the two.
   if (!image.png.empty()) std::filesystem::remove(image.png, ignored);
-  const auto written =
-      write_exr(image.exr, work.partial.image, work.header, options_.storage, work.settings.threads);
-  if (!written.ok()) return written;
+  if (const auto written = work.file->commit(); !written.ok()) return written;
   auto png = complete_png(image);
   if (!png.ok()) return png.failure();
   work.png_lines = std::move(png).value();
@@ -75,8 +70,8 @@ void RenderRun::tell_of_lack(Work& work) {
 
 // Images matter more than what is told of them: they are all made, and the exit status tells of the loss.
 void RenderRun::record(Work& work) {
-  work.record =
-      statistics_json(work.scene, work.needs, work.settings, work.statistics, work.faults, work.image->exr);
+  work.record = statistics_json(work.scene, work.needs, work.settings, work.statistics, work.file->faults(),
+                                work.image->exr);
   const auto written = statistics_.write(work.record);
   if (!written.ok() && !std::exchange(lost_statistics_, true))
     trouble(written.error() + "; the images are made all the same");
@@ -117,7 +112,7 @@ void RenderRun::tell_of_png(const PlannedImage& image, const std::vector<std::st
 void RenderRun::tell(const Work& work) {
   const PlannedImage& planned = *work.image;
   const RenderStatistics& statistics = work.statistics;
-  const ImageFaults& faults = work.faults;
+  const ImageFaults faults = work.file->faults();
   const std::string file = planned.exr.string();
   if (statistics.samples.at_limit > 0) {
     progress_.say("backlight: warning: " + file + ": " + std::to_string(statistics.samples.at_limit) +

@@ -96,7 +96,7 @@ fs::path temporary_name(const fs::path& folder) {
 int open_nameless(const fs::path& folder) {
   static const bool can_be_named = ::access("/proc/self/fd", X_OK) == 0;
   if (!can_be_named) return -1;
-  return unless_interrupted([&] { return ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666); });
+  return unless_interrupted([&] { return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666); });
 }
 
 /// Flushes a folder's entries. File systems without such a flush (EINVAL) need none.
@@ -132,7 +132,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
   if (const int descriptor = open_nameless(folder); descriptor >= 0) return AtomicFile(path, {}, descriptor);
   for (;;) {
     fs::path temporary = temporary_name(folder);
-    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const int descriptor = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0) {
       return AtomicFile(path, std::move(temporary), descriptor);
     }
@@ -213,6 +213,22 @@ Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
 
 Result<void> AtomicFile::write(std::string_view text) {
   return write(std::as_bytes(std::span(text.data(), text.size())));
+}
+
+Result<void> AtomicFile::read_back(std::uint64_t position, std::span<char> bytes) const {
+  if (Result<void> so_far = status(); !so_far.ok()) {
+    return so_far;
+  }
+  while (!bytes.empty()) {
+    const ssize_t count = unless_interrupted(
+        [&] { return ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(position)); });
+    if (count <= 0) {
+      return cannot_read(path_, count < 0 ? reason(errno) : "it ends too early");
+    }
+    position += static_cast<std::uint64_t>(count);
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+  return {};
 }
 
 /// Gives a file without a name its own at once, where that is free, or else a temporary one: only between

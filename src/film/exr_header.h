@@ -7,9 +7,6 @@
 
 namespace backlight {
 
-/// The rows of one chunk of a file with to_imf's compression.
-inline constexpr int zip_chunk_rows = 16;
-
 /// Throws std::exception on an attribute that cannot be written.
 Imf::Header to_imf(const ImageLayout& layout, const ExrHeader& description);
 

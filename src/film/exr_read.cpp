@@ -104,7 +104,7 @@ ExrInfo readable(std::vector<ExrInfo> parts, std::size_t part) {
 /// each chunk begins with its first row and its size.
 void check_chunks(FileStream& stream, const ExrInfo& info) {
   const int rows = info.layout.data.height();
-  const int count = (rows + zip_chunk_rows - 1) / zip_chunk_rows;
+  const int count = (rows + exr_chunk_rows - 1) / exr_chunk_rows;
   const std::uint64_t table = stream.tellg();
   for (int chunk = 0; chunk < count; ++chunk) {
     std::uint64_t offset = 0;
@@ -117,7 +117,7 @@ void check_chunks(FileStream& stream, const ExrInfo& info) {
     Imf::Xdr::read<Imf::StreamIO>(stream, row);
     Imf::Xdr::read<Imf::StreamIO>(stream, size);
     const std::uint64_t left = stream.size() - offset - 8;
-    if (row != info.layout.data.y0 + chunk * zip_chunk_rows || size <= 0 ||
+    if (row != info.layout.data.y0 + chunk * exr_chunk_rows || size <= 0 ||
         static_cast<std::uint64_t>(size) > left) {
       throw std::runtime_error("rows of the picture are missing");
     }

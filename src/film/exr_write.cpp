@@ -1,12 +1,6 @@
 #include <IexErrnoExc.h>
-#include <ImfFrameBuffer.h>
-#include <ImfIO.h>
-#include <ImfOutputFile.h>
-#include <ImfThreading.h>
-#include <half.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <new>
 #include <set>
@@ -16,49 +10,10 @@
 
 #include "backlight/base/files.h"
 #include "backlight/film/exr.h"
-#include "exr_header.h"
+#include "exr_rows.h"
 
 namespace backlight {
 namespace {
-
-/// OpenEXR writes through this, a few bytes at a time: they are collected. A failure must leave as an
-/// exception; the file keeps the reason.
-class CheckedStream : public Imf::OStream {
- public:
-  explicit CheckedStream(AtomicFile& file) : Imf::OStream(file.path().c_str()), file_(file) {}
-
-  void write(const char bytes[], int count) override {
-    collected_.append(bytes, static_cast<std::size_t>(count));
-    // A number of 64 bits, zero: as the place of a chunk, one that was not written.
-    if (count != 8 || std::any_of(bytes, bytes + 8, [](char byte) { return byte != 0; }))
-      taken_ += static_cast<std::uint64_t>(count);
-    if (collected_.size() >= enough) flush();
-  }
-  std::uint64_t tellp() override { return file_.position() + collected_.size(); }
-  void seekp(std::uint64_t position) override {
-    if (position == tellp()) return;
-    flush();
-    file_.seek(position);
-  }
-
-  /// Bytes that were written so far, wherever, without places of chunks that are not there.
-  [[nodiscard]] std::uint64_t taken() const { return taken_; }
-
-  void flush() {
-    const auto written = file_.write(collected_);
-    collected_.clear();
-    if (!written.ok()) {
-      throw std::runtime_error(written.error());
-    }
-  }
-
- private:
-  static constexpr std::size_t enough = std::size_t{1} << 20U;
-
-  AtomicFile& file_;
-  std::string collected_;
-  std::uint64_t taken_ = 0;
-};
 
 /// What is wrong with the layout, or nothing.
 std::string fault_of(const ImageLayout& layout) {
@@ -80,6 +35,19 @@ std::string fault_of(const ImageLayout& layout) {
   return {};
 }
 
+std::size_t chunks_of(int rows) {
+  return static_cast<std::size_t>((rows + exr_chunk_rows - 1) / exr_chunk_rows);
+}
+
+std::vector<std::span<const float>> rows_of(std::span<const std::span<const float>> planes,
+                                            std::size_t first_value, std::size_t values) {
+  std::vector<std::span<const float>> rows;
+  for (const std::span<const float> plane : planes) rows.push_back(plane.subspan(first_value, values));
+  return rows;
+}
+
+}  // namespace
+
 bool half_overflows(const Image& image) {
   for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
     if (image.layout().channels[channel].precision == ChannelPrecision::half &&
@@ -91,149 +59,150 @@ bool half_overflows(const Image& image) {
   return false;
 }
 
-// From so many numbers on, compression takes longer than it does to wake other threads.
-bool is_large(const Image& image) {
-  constexpr std::size_t large = std::size_t{1} << 18U;
-  return image.channel_count() > 0 && image.channel_count() * image.plane(0).size() >= large;
+void widen(ImageLayout& layout) {
+  for (ChannelInfo& channel : layout.channels) channel.precision = ChannelPrecision::single;
 }
-
-// How many threads of OpenEXR's own, which all files of the process share, help with a file. They are started
-// by the first file that asks for any; where they cannot be, each file is compressed by the thread that
-// writes it.
-int helpers_of(int threads) {
-  if (threads <= 1) return 0;
-  static const bool are_there = [&] {
-    try {
-      Imf::setGlobalThreadCount(threads);
-      return true;
-    } catch (const std::exception&) {
-      return false;
-    }
-  }();
-  return are_there ? threads : 0;
-}
-
-}  // namespace
 
 class ExrWriter::Implementation {
  public:
-  Implementation(AtomicFile file, const ImageLayout& layout, const ExrHeader& header, int threads)
+  Implementation(AtomicFile file, const ImageLayout& layout, const ExrHeader& header)
       : file_(std::move(file)),
-        stream_(file_),
         layout_(layout),
-        output_(std::make_unique<Imf::OutputFile>(stream_, to_imf(layout, header), helpers_of(threads))),
-        band_rows_(zip_chunk_rows * std::max(1, 2 * helpers_of(threads))),
+        collected_(head_of(layout, header)),
+        table_(collected_.size() - 8 * chunks_of(layout.data.height())),
         next_row_(layout.data.y0) {}
 
-  Result<void> write_rows(std::span<const std::span<const float>> planes, int rows) {
-    if (!error_.empty()) {
-      return Failure{error_};
-    }
+  /// Calls `work`, its exceptions turned into failures that name the file.
+  template <class Work>
+  auto explained(const Work& work) const -> decltype(work()) {
+    const std::string what = "cannot write " + file_.path().string() + ": ";
     try {
-      write_or_throw(planes, rows);
+      return work();
     } catch (const std::bad_alloc&) {
-      file_.abandon();
       throw;
     } catch (const Iex::EnomemExc&) {
-      file_.abandon();
       throw std::bad_alloc();
     } catch (const std::exception& exception) {
-      error_ = file_.status().ok() ? "cannot write " + file_.path().string() + ": " + exception.what()
-                                   : file_.status().error();
-      file_.abandon();
-      return Failure{error_};
+      return Failure{what + exception.what()};
     }
-    return {};
+  }
+
+  [[nodiscard]] Result<EncodedRows> encode(int first, std::span<const std::span<const float>> planes,
+                                           int rows) const {
+    return explained([&]() -> Result<EncodedRows> {
+      require_fit(planes, rows);
+      const int end = first + rows;
+      const bool is_aligned = (first - layout_.data.y0) % exr_chunk_rows == 0 &&
+                              ((end - layout_.data.y0) % exr_chunk_rows == 0 || end == layout_.data.y1);
+      if (!is_aligned || rows < 1 || first < layout_.data.y0 || end > layout_.data.y1)
+        throw std::runtime_error("the rows do not fit the picture");
+      return EncodedRows{first, rows, chunks_of_rows(layout_of_rows(layout_, first, rows), planes)};
+    });
+  }
+
+  Result<void> write(const EncodedRows& rows) {
+    if (!error_.empty()) return Failure{error_};
+    return kept(explained([&]() -> Result<void> {
+      if (rows.first != next_row_) throw std::runtime_error("the rows do not fit the picture");
+      const std::vector<std::uint64_t> places = places_of(rows.chunks, file_.position() + collected_.size());
+      places_.insert(places_.end(), places.begin(), places.end());
+      collected_ += rows.chunks;
+      next_row_ += rows.count;
+      return collected_.size() >= enough ? flush() : Result<void>();
+    }));
+  }
+
+  Result<void> write_rows(std::span<const std::span<const float>> planes, int rows) {
+    if (!error_.empty()) return Failure{error_};
+    return kept(explained([&] { return write_or_throw(planes, rows); }));
+  }
+
+  Result<void> read_back(int first, std::span<const std::span<float>> planes, int rows) {
+    if (const Result<void> flushed = flush(); !flushed.ok()) return flushed;
+    return explained([&]() -> Result<void> {
+      const std::size_t chunk = chunks_of(first - layout_.data.y0);
+      const std::size_t end = chunk + chunks_of(rows);
+      if (first < layout_.data.y0 || rows < 1 || end > places_.size() ||
+          planes.size() != layout_.channels.size())
+        throw std::runtime_error("the rows asked for are not written");
+      const std::uint64_t begin = places_[chunk];
+      std::string chunks((end < places_.size() ? places_[end] : file_.position()) - begin, '\0');
+      if (const auto read = file_.read_back(begin, chunks); !read.ok()) return read;
+      decode_rows(layout_of_rows(layout_, first, rows), chunks, planes);
+      return {};
+    });
   }
 
   Result<void> commit() {
-    if (!error_.empty()) {
-      return Failure{error_};
-    }
+    if (!error_.empty()) return Failure{error_};
     if (next_row_ != layout_.data.y1) {
-      error_ = "cannot write " + file_.path().string() + ": rows of the picture are missing";
-      return Failure{error_};
+      return kept(Failure{"cannot write " + file_.path().string() + ": rows of the picture are missing"});
     }
-    // Writes the table of chunks, eight bytes each, and swallows what goes wrong. The file has kept that, but
-    // not a lack of memory on the way to it.
-    const std::uint64_t before = stream_.taken();
-    output_.reset();
-    const auto chunks =
-        static_cast<std::uint64_t>((layout_.data.height() + zip_chunk_rows - 1) / zip_chunk_rows);
-    if (file_.status().ok() && stream_.taken() - before != 8 * chunks) {
-      file_.abandon();
-      throw std::bad_alloc();
-    }
-    try {
-      stream_.flush();
-    } catch (const std::exception&) {  // this too
-    }
+    if (const Result<void> flushed = flush(); !flushed.ok()) return flushed;
+    file_.seek(table_);
+    if (const Result<void> written = file_.write(table_of(places_)); !written.ok()) return written;
     return file_.commit();
   }
 
  private:
-  void write_or_throw(std::span<const std::span<const float>> planes, int rows) {
+  static constexpr std::size_t enough = std::size_t{1} << 20U;
+
+  Result<void> kept(Result<void> result) {
+    if (!result.ok()) {
+      error_ = file_.status().ok() ? result.error() : file_.status().error();
+      file_.abandon();
+    }
+    return result;
+  }
+
+  Result<void> flush() {
+    const Result<void> written = file_.write(collected_);
+    collected_.clear();
+    return written;
+  }
+
+  void require_fit(std::span<const std::span<const float>> planes, int rows) const {
     const auto width = static_cast<std::size_t>(layout_.data.width());
-    if (rows < 0 || rows > layout_.data.y1 - next_row_ || planes.size() != layout_.channels.size()) {
+    const auto fits = [&](std::span<const float> plane) {
+      return plane.size() == width * static_cast<std::size_t>(rows);
+    };
+    if (rows < 0 || planes.size() != layout_.channels.size() || !std::ranges::all_of(planes, fits))
       throw std::runtime_error("the rows do not fit the picture");
-    }
-    for (const std::span<const float> plane : planes) {
-      if (plane.size() != width * static_cast<std::size_t>(rows)) {
-        throw std::runtime_error("the rows do not fit the picture");
-      }
-    }
-    for (int first = 0; first < rows; first += band_rows_) {
-      const int count = std::min(band_rows_, rows - first);
-      write_band(planes, width * static_cast<std::size_t>(first), count);
-    }
   }
 
-  /// `count` <= band_rows_ rows, which start at `offset` in each plane.
-  void write_band(std::span<const std::span<const float>> planes, std::size_t offset, int count) {
-    const auto width = static_cast<std::size_t>(layout_.data.width());
-    const std::size_t pixels = width * static_cast<std::size_t>(count);
-    const Imath::V2i origin(layout_.data.x0, next_row_);
-    half_bands_.resize(planes.size());
-    Imf::FrameBuffer buffer;
+  /// Rows that do not end a chunk wait for the next.
+  Result<void> write_or_throw(std::span<const std::span<const float>> planes, int rows) {
+    require_fit(planes, rows);
+    if (rows > layout_.data.y1 - next_row_ - waiting_rows_)
+      throw std::runtime_error("the rows do not fit the picture");
+    waiting_.resize(planes.size());
     for (std::size_t channel = 0; channel < planes.size(); ++channel) {
-      const ChannelInfo& info = layout_.channels[channel];
-      const std::span<const float> values = planes[channel].subspan(offset, pixels);
-      const bool narrow = info.precision == ChannelPrecision::half;
-      if (narrow) {
-        round_to_half(values, half_bands_[channel], info.name);
-      }
-      const void* data = narrow ? static_cast<const void*>(half_bands_[channel].data())
-                                : static_cast<const void*>(values.data());
-      const std::size_t size = narrow ? sizeof(half) : sizeof(float);
-      buffer.insert(info.name, Imf::Slice::Make(narrow ? Imf::HALF : Imf::FLOAT, data, origin,
-                                                static_cast<std::int64_t>(width), count, size, size * width));
+      static_cast<void>(require_half(planes[channel], layout_.channels[channel]));
+      waiting_[channel].insert(waiting_[channel].end(), planes[channel].begin(), planes[channel].end());
     }
-    output_->setFrameBuffer(buffer);
-    output_->writePixels(count);
-    next_row_ += count;
-  }
-
-  static void round_to_half(std::span<const float> values, std::vector<half>& rounded,
-                            const std::string& channel) {
-    rounded.resize(values.size());
-    const bool all_fit = all_within(values, greatest_half);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!all_fit && !fits_half(values[i])) {
-        throw std::runtime_error("the value " + std::to_string(values[i]) + " of channel " + channel +
-                                 " is beyond half precision; store it as float");
-      }
-      rounded[i] = half(values[i]);
-    }
+    waiting_rows_ += rows;
+    const bool is_end = next_row_ + waiting_rows_ == layout_.data.y1;
+    const int ready = is_end ? waiting_rows_ : waiting_rows_ - waiting_rows_ % exr_chunk_rows;
+    if (ready == 0) return {};
+    const auto values = static_cast<std::size_t>(ready) * static_cast<std::size_t>(layout_.data.width());
+    const std::vector<std::span<const float>> all(waiting_.begin(), waiting_.end());
+    const auto encoded = encode(next_row_, rows_of(all, 0, values), ready);
+    if (!encoded.ok()) return encoded.failure();
+    for (std::vector<float>& plane : waiting_)
+      plane.erase(plane.begin(), plane.begin() + static_cast<std::ptrdiff_t>(values));
+    waiting_rows_ -= ready;
+    return write(encoded.value());
   }
 
   AtomicFile file_;
-  CheckedStream stream_;
   ImageLayout layout_;
-  std::unique_ptr<Imf::OutputFile> output_;
-  int band_rows_;
+  std::string collected_;  // that the file does not have yet: it is not to be asked for a few bytes each time
+  std::uint64_t table_;    // where it is in the file
+  std::vector<std::uint64_t> places_;  // of the chunks
   int next_row_;
+  std::vector<std::vector<float>> waiting_;  // rows of a chunk that is not full
+  int waiting_rows_ = 0;
   std::string error_;
-  std::vector<std::vector<half>> half_bands_;
 };
 
 ExrWriter::ExrWriter(std::unique_ptr<Implementation> implementation)
@@ -243,7 +212,7 @@ ExrWriter& ExrWriter::operator=(ExrWriter&&) noexcept = default;
 ExrWriter::~ExrWriter() = default;
 
 Result<ExrWriter> ExrWriter::open(const std::filesystem::path& path, const ImageLayout& layout,
-                                  const ExrHeader& header, int threads) {
+                                  const ExrHeader& header) {
   if (const std::string fault = fault_of(layout); !fault.empty()) {
     return Failure{"cannot write " + path.string() + ": " + fault};
   }
@@ -252,20 +221,31 @@ Result<ExrWriter> ExrWriter::open(const std::filesystem::path& path, const Image
     return file.failure();
   }
   try {
-    return ExrWriter(std::make_unique<Implementation>(std::move(file).value(), layout, header, threads));
+    return ExrWriter(std::make_unique<Implementation>(std::move(file).value(), layout, header));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const Iex::EnomemExc&) {
     throw std::bad_alloc();
   } catch (const std::exception& exception) {
-    const std::string why = exception.what();
-    // The stream's own failures already name the file.
-    return Failure{why.starts_with("cannot write ") ? why : "cannot write " + path.string() + ": " + why};
+    return Failure{"cannot write " + path.string() + ": " + exception.what()};
   }
+}
+
+Result<EncodedRows> ExrWriter::encode(int first, std::span<const std::span<const float>> planes,
+                                      int rows) const {
+  return implementation_->encode(first, planes, rows);
+}
+
+Result<void> ExrWriter::write(const EncodedRows& rows) {
+  return implementation_->write(rows);
 }
 
 Result<void> ExrWriter::write_rows(std::span<const std::span<const float>> planes, int rows) {
   return implementation_->write_rows(planes, rows);
+}
+
+Result<void> ExrWriter::read_back(int first, std::span<const std::span<float>> planes, int rows) {
+  return implementation_->read_back(first, planes, rows);
 }
 
 Result<void> ExrWriter::commit() {
@@ -273,14 +253,10 @@ Result<void> ExrWriter::commit() {
 }
 
 Result<void> write_exr(const std::filesystem::path& path, const Image& image, const ExrHeader& header,
-                       ColourStorage storage, int threads) {
+                       ColourStorage storage) {
   ImageLayout layout = image.layout();
-  if (storage == ColourStorage::always_float || half_overflows(image)) {
-    for (ChannelInfo& channel : layout.channels) {
-      channel.precision = ChannelPrecision::single;
-    }
-  }
-  Result<ExrWriter> writer = ExrWriter::open(path, layout, header, is_large(image) ? threads : 1);
+  if (storage == ColourStorage::always_float || half_overflows(image)) widen(layout);
+  Result<ExrWriter> writer = ExrWriter::open(path, layout, header);
   if (!writer.ok()) {
     return writer.failure();
   }
@@ -288,8 +264,12 @@ Result<void> write_exr(const std::filesystem::path& path, const Image& image, co
   for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
     planes.push_back(image.plane(channel));
   }
-  if (Result<void> written = writer.value().write_rows(planes, layout.data.height()); !written.ok()) {
-    return written;
+  const auto width = static_cast<std::size_t>(layout.data.width());
+  for (int row = 0; row < layout.data.height(); row += exr_chunk_rows) {
+    const int count = std::min(exr_chunk_rows, layout.data.height() - row);
+    const auto rows =
+        rows_of(planes, width * static_cast<std::size_t>(row), width * static_cast<std::size_t>(count));
+    if (Result<void> written = writer.value().write_rows(rows, count); !written.ok()) return written;
   }
   return writer.value().commit();
 }

@@ -86,13 +86,15 @@ LinearRgb saturated(const LinearRgb& rgb) {
 }
 
 PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
-    : image_(&image), first_(view * channels_of_one_view(scene).size()) {
+    : image_(&image),
+      first_(view * image.channel_count() / std::max<std::size_t>(image.layout().views.size(), 1)) {
+  for (std::size_t c = 0; c < 4; ++c) colour_[c] = image.plane(first_ + c).data();
+  if (!has_data_channels(scene)) return;
   for (const DataChannel& channel : data_channels) {
     if (!asked_for(scene, channel.aov)) continue;
     if (channel.aov == "Z") distance_ = data_.size();
     data_.push_back(channel.value);
   }
-  for (std::size_t c = 0; c < 4; ++c) colour_[c] = image.plane(first_ + c).data();
 }
 
 namespace {

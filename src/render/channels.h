@@ -32,6 +32,7 @@ LinearRgb saturated(const LinearRgb& rgb);
 /// Writes one view's pixels, by the channel order of layout_of.
 class PixelWriter {
  public:
+  /// `image` has the scene's channels, and any rows.
   PixelWriter(const Scene& scene, Image& image, std::size_t view);
 
   /// Each returns whether all it wrote is finite as a float, or is as it should be: infinitely far, where the

@@ -42,7 +42,20 @@ bool is_without_fault(const Image& image, const std::vector<Allowed>& allowed) {
   return true;
 }
 
+bool comes_first(const std::optional<std::pair<int, int>>& a, const std::optional<std::pair<int, int>>& b) {
+  if (!a || !b) return a.has_value();
+  return std::make_pair(a->second, a->first) < std::make_pair(b->second, b->first);
+}
+
 }  // namespace
+
+ImageFaults& ImageFaults::operator+=(const ImageFaults& other) {
+  non_finite += other.non_finite;
+  saturated += other.saturated;
+  beyond_half += other.beyond_half;
+  if (comes_first(other.first_non_finite, first_non_finite)) first_non_finite = other.first_non_finite;
+  return *this;
+}
 
 ImageFaults faults_of(const Image& image) {
   ImageFaults faults;

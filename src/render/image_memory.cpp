@@ -24,8 +24,12 @@ std::uint64_t bytes_of_pixel(const Scene& scene) {
 
 std::uint64_t image_bytes(const Scene& scene, const RenderSettings& settings) {
   const PixelBox window = window_of(scene, settings);
+  // Each thread may be in a band of its own, or compress one; two wait for a helper that is at another.
+  const std::int64_t bands = std::int64_t{settings.threads} + 4;
+  const std::int64_t rows =
+      keeps_rows(scene) ? window.height() : std::min<std::int64_t>(window.height(), bands * band_rows(scene));
   return bytes_of_pixel(scene) * static_cast<std::uint64_t>(window.width()) *
-         static_cast<std::uint64_t>(window.height());
+         static_cast<std::uint64_t>(rows);
 }
 
 std::uint64_t surface_bytes(const Scene& scene) {

@@ -34,12 +34,11 @@ std::size_t MissingPixels::add_block(const PixelBox& tile, int left, int top, co
   return static_cast<std::size_t>(next - pixels.data());
 }
 
-void MissingPixels::list(const PixelBox& tile, const ImageLayout& layout, const std::uint8_t* done) {
+void MissingPixels::list(const PixelBox& tile, const PixelBox& window, const std::uint8_t* done) {
   // As many as the tile has, and not cleared first.
   pixels.resize(static_cast<std::size_t>(tile.width()) * static_cast<std::size_t>(tile.height()));
   whole.clear();
   std::size_t count = 0;
-  const PixelBox& window = layout.data;
   const int width = window.width();
   for (int top = tile.y0; top < tile.y1; top += block_size) {
     for (int left = tile.x0; left < tile.x1; left += block_size) {

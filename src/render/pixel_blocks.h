@@ -33,8 +33,8 @@ struct MissingPixels {
   std::vector<TilePixel> pixels;
   std::vector<std::size_t> whole;  ///< where the blocks of which no pixel is done begin
 
-  /// `done`: a byte for each pixel of the data window.
-  void list(const PixelBox& tile, const ImageLayout& layout, const std::uint8_t* done);
+  /// `done`: a byte for each pixel of `window`, which the tile lies in.
+  void list(const PixelBox& tile, const PixelBox& window, const std::uint8_t* done);
 
  private:
   std::size_t add_block(const PixelBox& tile, int left, int top, const std::uint8_t* done, int width,

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <utility>
 
 #include "backlight/base/thread_pool.h"
+#include "backlight/render/image_file.h"
 #include "backlight/render/progress.h"
 #include "backlight/surface/implicit_surface.h"
 #include "view_renderer.h"
@@ -48,13 +50,13 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 std::vector<ViewRenderer> views_of(const Tracer& tracer, const SheetTracer* sheets,
-                                   const RenderSettings& settings, PartialImage& partial) {
+                                   const RenderSettings& settings) {
   std::vector<ViewRenderer> views;
   if (!tracer.scene().camera.stereo) {
-    views.emplace_back(tracer, sheets, settings, 0, partial, 0);
+    views.emplace_back(tracer, sheets, settings, 0, 0);
   } else {
-    views.emplace_back(tracer, sheets, settings, -1, partial, 0);
-    views.emplace_back(tracer, sheets, settings, +1, partial, 1);
+    views.emplace_back(tracer, sheets, settings, -1, 0);
+    views.emplace_back(tracer, sheets, settings, +1, 1);
   }
   return views;
 }
@@ -71,21 +73,44 @@ RenderStatistics summed(const std::vector<ThreadMemory>& memories) {
 
 }  // namespace
 
+SampleCounts& SampleCounts::operator+=(const SampleCounts& other) {
+  if (other.pixels == 0) return *this;
+  least = pixels == 0 ? other.least : std::min(least, other.least);
+  most = std::max(most, other.most);
+  pixels += other.pixels;
+  total += other.total;
+  at_limit += other.at_limit;
+  return *this;
+}
+
+PixelFailure::PixelFailure(int at_x, int at_y, const std::string& why)
+    : std::runtime_error("pixel " + std::to_string(at_x) + "," + std::to_string(at_y) + ": " + why),
+      x(at_x),
+      y(at_y) {}
+
 std::size_t tile_count(const Scene& scene, const RenderSettings& settings) {
   return TileGrid(scene, settings).count();
 }
 
-PartialImage begin_image(const Scene& scene, const RenderSettings& settings) {
-  PartialImage partial{Image(layout_of(scene, data_window(scene, settings))), {}};
-  const std::size_t views = std::max<std::size_t>(partial.image.layout().views.size(), 1);
-  partial.done.assign(views, std::vector<std::uint8_t>(partial.image.plane(0).size(), 0));
-  return partial;
+int band_rows(const Scene& scene) {
+  return std::lcm(tile_size_of(scene), exr_chunk_rows);
+}
+
+bool keeps_rows(const Scene& scene) {
+  return scene.film.samples > 1 || scene.film.adaptive;
+}
+
+std::unique_ptr<PartialImage> begin_image(const Scene& scene, const RenderSettings& settings) {
+  return std::make_unique<PartialImage>(layout_of(scene, data_window(scene, settings)), band_rows(scene),
+                                        keeps_rows(scene));
 }
 
 struct ImageTracing::Parts {
-  Parts(const Scene& scene, const RenderSettings& the_settings, PartialImage& partial,
-        const std::atomic<bool>& the_stop, ProgressReporter* the_progress)
+  Parts(const Scene& scene, const RenderSettings& the_settings, PartialImage& the_partial,
+        const std::atomic<bool>& the_stop, ProgressReporter* the_progress, ImageFile* the_file)
       : settings(the_settings),
+        partial(the_partial),
+        file(the_file),
         stop(the_stop),
         progress(the_progress),
         grid(scene, settings),
@@ -96,7 +121,7 @@ struct ImageTracing::Parts {
       sheets.emplace(tracer, settings.instructions);
     }
     const SheetTracer* in_use = sheets ? &*sheets : nullptr;
-    views = views_of(tracer, in_use, settings, partial);
+    views = views_of(tracer, in_use, settings);
     for (int i = 0; i < std::max(1, settings.threads); ++i)
       memories.emplace_back(tracer, in_use, settings.instructions);
     if (!scene.film.adaptive) return;
@@ -105,6 +130,8 @@ struct ImageTracing::Parts {
   }
 
   const RenderSettings settings;
+  PartialImage& partial;
+  ImageFile* file;  // null: none
   const std::atomic<bool>& stop;
   ProgressReporter* progress;
   TileGrid grid;
@@ -116,8 +143,8 @@ struct ImageTracing::Parts {
 };
 
 ImageTracing::ImageTracing(const Scene& scene, const RenderSettings& settings, PartialImage& partial,
-                           const std::atomic<bool>& stop, ProgressReporter* progress)
-    : parts_(std::make_unique<Parts>(scene, settings, partial, stop, progress)) {}
+                           const std::atomic<bool>& stop, ProgressReporter* progress, ImageFile* file)
+    : parts_(std::make_unique<Parts>(scene, settings, partial, stop, progress, file)) {}
 
 ImageTracing::~ImageTracing() = default;
 
@@ -128,10 +155,18 @@ std::size_t ImageTracing::tile_count() const {
 void ImageTracing::tile(std::size_t index, int thread) {
   const auto start = std::chrono::steady_clock::now();
   ThreadMemory& memory = parts_->memories[static_cast<std::size_t>(thread)];
-  const std::uint64_t roots_before = roots_solved_by_this_thread();
-  for (ViewRenderer& view : parts_->views) view.tile(parts_->grid.tile(index), parts_->stop, memory);
-  memory.scratch.counts.roots += roots_solved_by_this_thread() - roots_before;
-  memory.seconds += seconds_since(start);
+  const PixelBox box = parts_->grid.tile(index);
+  const bool is_wanted = parts_->file == nullptr || parts_->file->has_use_for_pixels();
+  RowBand* band = is_wanted ? parts_->partial.begin(parts_->partial.band_of(box.y0)) : nullptr;
+  if (band != nullptr) {
+    const std::uint64_t roots_before = roots_solved_by_this_thread();
+    const std::uint64_t pixels_before = memory.samples.pixels;
+    for (const ViewRenderer& view : parts_->views) view.tile(box, *band, parts_->stop, memory);
+    memory.scratch.counts.roots += roots_solved_by_this_thread() - roots_before;
+    memory.seconds += seconds_since(start);
+    band->missing -= memory.samples.pixels - pixels_before;
+  }
+  if (parts_->file != nullptr) parts_->file->take_finished();
   if (parts_->progress != nullptr) parts_->progress->advance();
 }
 
@@ -154,10 +189,10 @@ RenderStatistics render_missing(const Scene& scene, const RenderSettings& settin
 
 std::optional<RenderedImage> render_image(const Scene& scene, const RenderSettings& settings,
                                           const std::atomic<bool>& stop, ProgressReporter* progress) {
-  PartialImage partial = begin_image(scene, settings);
-  const RenderStatistics statistics = render_missing(scene, settings, partial, stop, progress);
-  if (!partial.is_complete()) return std::nullopt;
-  return RenderedImage{std::move(partial.image), statistics};
+  const std::unique_ptr<PartialImage> partial = begin_image(scene, settings);
+  const RenderStatistics statistics = render_missing(scene, settings, *partial, stop, progress);
+  if (!partial->is_complete()) return std::nullopt;
+  return RenderedImage{partial->whole(), statistics};
 }
 
 }  // namespace backlight

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstring>
 #include <exception>
+#include <utility>
 
 namespace backlight {
 namespace {
@@ -20,13 +21,13 @@ bool is_worth_finishing(std::chrono::steady_clock::time_point begin, int done, i
 
 template <class Estimate>
 void ViewRenderer::write_all(ThreadMemory& m, const std::vector<SurfaceRecord>* records,
-                             const Estimate& estimate) {
+                             const Estimate& estimate) const {
   const bool plain = !has_stars_ && !has_data_;
   SampleCounts samples;  // beyond the reach of the pixels' pointers: the compiler keeps it in registers
   std::uint64_t non_finite = 0;
-  const PixelWriter writer = writer_;
-  std::uint8_t* const done = done_.data();
-  const PixelBox window = image_.layout().data;
+  const PixelWriter& writer = *m.writer;
+  std::uint8_t* const done = m.done;
+  const PixelBox window = m.window;
   const TilePixel* const pixels = m.missing.pixels.data();
   const std::size_t count = m.missing.pixels.size();
   for (std::size_t k = 0; k < count; ++k) {
@@ -45,10 +46,10 @@ void ViewRenderer::write_all(ThreadMemory& m, const std::vector<SurfaceRecord>* 
   m.scratch.counts.non_finite += non_finite;
 }
 
-void ViewRenderer::write_colours(ThreadMemory& m) {
+void ViewRenderer::write_colours(ThreadMemory& m) const {
   const std::vector<TilePixel>& pixels = m.missing.pixels;
   const TileLight& light = m.light;
-  const PixelBox window = image_.layout().data;
+  const PixelBox window = m.window;
   const auto width = static_cast<std::size_t>(window.width());
   auto whole = m.missing.whole.begin();
   std::uint64_t non_finite = 0;
@@ -57,14 +58,14 @@ void ViewRenderer::write_colours(ThreadMemory& m) {
     const std::size_t at =
         static_cast<std::size_t>(y - window.y0) * width + static_cast<std::size_t>(x - window.x0);
     if (whole != m.missing.whole.end() && *whole == k) {
-      non_finite += writer_.block(at, width, light, k);
+      non_finite += m.writer->block(at, width, light, k);
       for (std::size_t row = 0; row < block_size; ++row)
-        std::memset(done_.data() + at + row * width, 1, block_size);
+        std::memset(m.done + at + row * width, 1, block_size);
       ++whole;
       k += block_pixels;
     } else {
-      non_finite += writer_.colour(at, LinearRgb{0.0} + light.colour(k), double(light.covered[k])) ? 0 : 1;
-      done_[at] = 1;
+      non_finite += m.writer->colour(at, LinearRgb{0.0} + light.colour(k), double(light.covered[k])) ? 0 : 1;
+      m.done[at] = 1;
       ++k;
     }
   }
@@ -73,7 +74,17 @@ void ViewRenderer::write_colours(ThreadMemory& m) {
   m.scratch.counts.non_finite += non_finite;
 }
 
-void ViewRenderer::tile(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& memory) {
+void ViewRenderer::tile(const PixelBox& box, RowBand& band, const std::atomic<bool>& stop,
+                        ThreadMemory& memory) const {
+  memory.window = band.image.layout().data;
+  memory.done = band.done[view_].data();
+  memory.writer.emplace(tracer_.scene(), band.image, view_);
+  memory.missing.list(box, memory.window, memory.done);
+  if (!memory.missing.pixels.empty()) trace_missing(box, stop, memory);
+}
+
+void ViewRenderer::trace_missing(const PixelBox& box, const std::atomic<bool>& stop,
+                                 ThreadMemory& memory) const {
   if (memory.sampler) {
     tile_to_tolerance(box, stop, memory);
     return;
@@ -88,18 +99,16 @@ void ViewRenderer::tile(const PixelBox& box, const std::atomic<bool>& stop, Thre
       // One by one, below, it turns out which pixel it was.
     }
   }
-  for (int y = box.y0; y < box.y1; ++y) {
-    for (int x = box.x0; x < box.x1; ++x) {
-      if (done_[image_.offset(x, y)] != 0) continue;
-      if (stop.load(std::memory_order_relaxed)) return;
-      at_pixel(x, y, [&] { pixel(x, y, memory); });
-    }
+  std::vector<TilePixel> pixels = memory.missing.pixels;
+  std::ranges::sort(pixels, {}, [](const TilePixel& pixel) { return std::pair(pixel.y, pixel.x); });
+  for (const TilePixel& missing : pixels) {
+    if (stop.load(std::memory_order_relaxed)) return;
+    at_pixel(missing.x, missing.y, [&] { pixel(missing.x, missing.y, memory); });
   }
 }
 
-void ViewRenderer::tile_to_tolerance(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {
-  list_missing(box, m.missing);
-  if (m.missing.pixels.empty()) return;
+void ViewRenderer::tile_to_tolerance(const PixelBox& box, const std::atomic<bool>& stop,
+                                     ThreadMemory& m) const {
   const auto trace = [&](std::span<const ImagePoint> points, std::vector<PixelSample>& samples) {
     if (stop.load(std::memory_order_relaxed)) return false;
     trace_points(points, m, samples);
@@ -150,10 +159,12 @@ void ViewRenderer::trace_point(const ImagePoint& point, Scratch& scratch, PixelS
   sample = {light.colour, light.opaque};
 }
 
-void ViewRenderer::tile_in_sheets(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) {
-  list_missing(box, m.missing);
-  for (int y = box.y0; y < box.y1; ++y) {
-    writer_.expect(image_.offset(box.x0, y), static_cast<std::size_t>(box.width()));
+void ViewRenderer::tile_in_sheets(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) const {
+  const auto width = static_cast<std::size_t>(m.window.width());
+  const std::size_t first =
+      width * static_cast<std::size_t>(box.y0 - m.window.y0) + static_cast<std::size_t>(box.x0 - m.window.x0);
+  for (int row = 0; row < box.height(); ++row) {
+    m.writer->expect(first + width * static_cast<std::size_t>(row), static_cast<std::size_t>(box.width()));
   }
   const Scene& scene = tracer_.scene();
   const int samples = scene.film.samples;
@@ -186,7 +197,7 @@ void ViewRenderer::tile_in_sheets(const PixelBox& box, const std::atomic<bool>& 
   }
 }
 
-void ViewRenderer::pixel(int x, int y, ThreadMemory& m) {
+void ViewRenderer::pixel(int x, int y, ThreadMemory& m) const {
   const Scene& scene = tracer_.scene();
   const int samples = scene.film.samples;
   LinearRgb sum{0.0};
@@ -206,7 +217,7 @@ void ViewRenderer::pixel(int x, int y, ThreadMemory& m) {
 
 bool ViewRenderer::data(int x, int y, const SurfaceRecord* known, int samples, ThreadMemory& m) const {
   if (!has_data_) return true;
-  if (known != nullptr) return writer_.data(x, y, {*known, samples});
+  if (known != nullptr) return m.writer->data(x, y, {*known, samples});
   const Scene& scene = tracer_.scene();
   Scratch& scratch = m.scratch;
   const ImagePoint centre{x + 0.5, y + 0.5};
@@ -214,7 +225,7 @@ bool ViewRenderer::data(int x, int y, const SurfaceRecord* known, int samples, T
   const auto ray = camera_ray(scene.camera, centre, effects, eye_);
   SurfaceRecord record = ray ? tracer_.surface(*ray, scratch) : SurfaceRecord{};
   if (ray && has_light_channels(scene)) tracer_.add_light(*ray, effects, record, scratch);
-  return writer_.data(x, y, {record, samples});
+  return m.writer->data(x, y, {record, samples});
 }
 
 }  // namespace backlight

@@ -71,7 +71,8 @@ TEST_F(FailureTest, FilesWithoutAnEndAreNotRead) {
 
 TEST_F(FailureTest, AnImageBeyondTheMemoryIsRefusedWithWhatToDo) {
   write_scene();
-  const Outcome outcome = run({"scene.toml", "-r", "65536x65536", "--aov", "all", "-o", "big.exr"});
+  const Outcome outcome =
+      run({"scene.toml", "-r", "65536x65536", "-s", "4", "--aov", "all", "-o", "big.exr"});
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   for (const char* words : {"an image of 65536x65536 pixels with 19 channels takes 308 GiB of memory",
                             "--crop 0,0,65536,", "--aov none", "backlight assemble", "big.exr"}) {

@@ -1,4 +1,6 @@
 // Which files a render writes, and what is in them.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -311,6 +313,44 @@ TEST_F(Output, StatisticsTellWhatWasReused) {
   EXPECT_NE(lines.rfind("\"surfacesMade\":0,"), std::string::npos) << lines;
   const Outcome outcome = run({"scene.toml", "-v", "-f", "1-3"});
   EXPECT_NE(outcome.err.find("from the first tile to the last"), std::string::npos) << outcome.err;
+}
+
+// Rows leave the memory for the file while others are traced: all pixels would take 200 MB.
+TEST_F(Output, AnImageOfOneSampleIsNotInMemoryAsAWhole) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take more memory";
+#endif
+  write_scene();
+  in_child = [] {
+    const rlimit limit{120 << 20, 120 << 20};  // of memory that is written to, stacks of threads among it
+    setrlimit(RLIMIT_DATA, &limit);
+  };
+  expect_success({"scene.toml", "-r", "6000x2000", "-s", "1", "-t", "1", "-o", "large.exr", "-q"});
+  const auto info = read_whole_exr_info(folder / "work" / "large.exr");
+  ASSERT_TRUE(info.ok()) << info.error();
+  EXPECT_EQ(info.value().layout.data, (PixelBox{0, 0, 6000, 2000}));
+  EXPECT_NE(run({"scene.toml", "-r", "6000x2000", "-s", "2", "-t", "1", "-o", "more.exr"}).code, 0);
+}
+
+// Of one sample, what was rounded to half is traced again; of more it was kept.
+TEST_F(Output, ColourThatPassesHalfOnlyAtTheEndIsFloatEverywhere) {
+  write_scene(
+      "scene.toml",
+      "[[object]]\nshape = \"sphere\"\nradius = 1\nposition = [0, -2, 0]\nmaterial = { emission = 1e6 }\n");
+  for (const char* samples : {"1", "3"}) {
+    const std::vector<std::string> job{"scene.toml", "-r", "200x300", "-s", samples, "-t", "2", "-q", "-o"};
+    const auto made = [&](const std::string& name, const std::string& storage) {
+      std::vector<std::string> arguments = job;
+      arguments.insert(arguments.end(), {name, storage, "--stats", name + ".json"});
+      expect_success(arguments);
+      return read(name);
+    };
+    EXPECT_EQ(made("half.exr", "--half"), made("float.exr", "--float"));
+    EXPECT_EQ(picture("half.exr").image.layout().channels[0].precision, ChannelPrecision::single);
+    const std::string rays = "\"cameraRays\":" + std::to_string(200 * 300 * std::stoi(samples)) + ",";
+    EXPECT_NE(read("half.exr.json").find(rays), std::string::npos) << read("half.exr.json");
+    EXPECT_EQ(read("half.exr.json").find("\"beyondHalfPixels\":0,"), std::string::npos);
+  }
 }
 
 TEST_F(Output, SchemaIsJson) {

@@ -155,18 +155,5 @@ TEST_F(Streams, ThreadsThatCannotBeBegunAreDoneWithout) {
   }
 }
 
-// OpenEXR's own threads come with large images: with -t 2, after those that trace and that which stores.
-TEST_F(Streams, ThreadsThatCannotCompressAreDoneWithout) {
-  if (!misfortune_is_possible) GTEST_SKIP() << "sanitizers replace the same functions";
-  const Arguments large = job + Arguments{"-f", "1", "-r", "400x300", "-s", "1", "--aov", "all", "-q"};
-  expect_success(large + Arguments{"-o", "right/large.exr"});
-  for (int there = 2; there <= 5; ++there) {
-    const std::string call = "MISFORTUNE=thread:" + std::to_string(there + 1) + "+:" + std::to_string(EAGAIN);
-    const Outcome outcome = run(large + Arguments{"-o", "large.exr"}, misfortune(call));
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(read("large.0001.exr"), read("right/large.0001.exr"));
-  }
-}
-
 }  // namespace
 }  // namespace backlight::test

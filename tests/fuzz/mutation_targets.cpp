@@ -58,10 +58,8 @@ void try_scene(const std::filesystem::path& file, const std::filesystem::path& f
 }
 
 void try_resuming(const std::filesystem::path& file, const ExrInfo& info) {
-  PartialImage partial{Image(info.layout), {}};
-  if (partial.image.channel_count() == 0) return;
-  const std::size_t views = std::max<std::size_t>(info.layout.views.size(), 1);
-  partial.done.assign(views, std::vector<std::uint8_t>(partial.image.plane(0).size(), 0));
+  if (info.layout.channels.empty()) return;
+  PartialImage partial(info.layout, 32, true);
   const auto* identity = info.header.find<std::string>(identity_attribute);
   static_cast<void>(read_partial(file, identity != nullptr ? *identity : "none", partial).ok());
 }

@@ -34,6 +34,9 @@ class AtomicFile {
   Result<void> write(std::span<const std::byte> bytes);
   Result<void> write(std::string_view text);
 
+  /// Reads back what was written, from `position` on. A failure is not kept.
+  [[nodiscard]] Result<void> read_back(std::uint64_t position, std::span<char> bytes) const;
+
   /// The next write goes to `position`, bytes from the beginning; a gap left behind reads as zeros.
   void seek(std::uint64_t position) { position_ = position; }
   [[nodiscard]] std::uint64_t position() const { return position_; }

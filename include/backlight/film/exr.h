@@ -81,26 +81,53 @@ enum class ColourStorage {
   always_float  ///< always
 };
 
+/// The rows of one chunk of the files that are written: what is compressed together.
+inline constexpr int exr_chunk_rows = 16;
+
+/// Whether a value of one of the image's channels of half precision is finite and beyond its range.
+bool half_overflows(const Image& image);
+
+/// All channels as float.
+void widen(ImageLayout& layout);
+
+/// Rows as they are in a file, rounded and compressed.
+struct EncodedRows {
+  int first = 0;
+  int count = 0;
+  std::string chunks;
+};
+
 /// Writes rows from top to bottom into a temporary beside `path`; nothing is at `path` before the commit.
-/// Without a commit the destructor removes the temporary. Holds a band of rows, not the picture.
+/// Without a commit the destructor removes the temporary. Holds a few rows, not the picture.
 ///
 /// Half is rounded to nearest, ties to even. A writer of rows cannot look ahead, so the channels are stored
 /// exactly as the layout says, and a value out of half's range makes write_rows fail.
 class ExrWriter {
  public:
   /// Fails if the layout has no pixel, no channel, two channels of one name or an empty name, if the header
-  /// has an attribute that cannot be written, or if the file cannot be made. With several `threads`, so many
-  /// help to compress rows that are given many at a time; the bytes are the same.
+  /// has an attribute that cannot be written, or if the file cannot be made.
   static Result<ExrWriter> open(const std::filesystem::path& path, const ImageLayout& layout,
-                                const ExrHeader& header, int threads = 1);
+                                const ExrHeader& header);
 
   ExrWriter(ExrWriter&&) noexcept;
   ExrWriter& operator=(ExrWriter&&) noexcept;
   ~ExrWriter();
 
-  /// The next rows: a plane for each channel, in the layout's order, each with `rows` rows of the data
-  /// window's width. After a failure every further call fails.
+  /// Some rows of the picture, from `first` on: a plane for each channel, in the layout's order, each with
+  /// `rows` rows of the data window's width. `first` begins a chunk, and the last row ends one, or the
+  /// picture. Different threads may encode different rows at the same time, and while rows are written.
+  [[nodiscard]] Result<EncodedRows> encode(int first, std::span<const std::span<const float>> planes,
+                                           int rows) const;
+
+  /// The next rows. After a failure every further call fails.
+  Result<void> write(const EncodedRows& rows);
+
+  /// The same of rows that are still to be encoded.
   Result<void> write_rows(std::span<const std::span<const float>> planes, int rows);
+
+  /// Gives rows back that were written, from the begin of one chunk to the end of another, as the file has
+  /// them: planes as those of encode().
+  Result<void> read_back(int first, std::span<const std::span<float>> planes, int rows);
 
   /// Completes the file and moves it to its place. Fails if rows are missing.
   Result<void> commit();
@@ -116,10 +143,9 @@ class ExrWriter {
 void begin_exr();
 
 /// Writes a whole picture. On failure (the disk is full, the folder cannot be written...) nothing is left
-/// behind, and a file that was at `path` is as it was. Large pictures are compressed by up to `threads`,
-/// which may write other pictures at the same time.
+/// behind, and a file that was at `path` is as it was.
 Result<void> write_exr(const std::filesystem::path& path, const Image& image, const ExrHeader& header,
-                       ColourStorage storage = ColourStorage::automatic, int threads = 1);
+                       ColourStorage storage = ColourStorage::automatic);
 
 struct ExrPicture {
   Image image;  ///< channels in alphabetical order, as in the file

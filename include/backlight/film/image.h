@@ -79,6 +79,9 @@ class Image {
   [[nodiscard]] const ImageLayout& layout() const { return layout_; }
   [[nodiscard]] std::size_t channel_count() const { return planes_.size(); }
 
+  /// The same pixels at another place: a window of the same size.
+  void move_to(const PixelBox& data) { layout_.data = data; }
+
   /// The number of the channel called `name`, or -1.
   [[nodiscard]] int find_channel(std::string_view name) const;
 

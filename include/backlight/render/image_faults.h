@@ -16,6 +16,9 @@ struct ImageFaults {
   std::uint64_t saturated =
       0;  ///< pixels with a colour channel at the greatest float, where brighter ones end
   std::uint64_t beyond_half = 0;  ///< pixels with a finite value of a half channel that half cannot hold
+
+  /// Of other pixels of the same image.
+  ImageFaults& operator+=(const ImageFaults& other);
 };
 
 /// Looks at every pixel. Those of a stereo pair count once.

@@ -10,7 +10,8 @@
 namespace backlight {
 
 /// Bytes of the pixels of the scene's image (of the crop, where there is one) while it is traced: four for
-/// each of its channels, and one for each view, which says whether the pixel is done.
+/// each of its channels, and one for each view, which says whether the pixel is done. Of an image of one
+/// sample a pixel, those of some bands of rows; of others all.
 std::uint64_t image_bytes(const Scene& scene, const RenderSettings& settings);
 
 /// Bytes that the scene's surfaces take, about, with those that an outline leaves out; and its textures.

@@ -11,10 +11,12 @@
 
 #include "backlight/film/exr.h"
 #include "backlight/film/image.h"
+#include "backlight/render/partial_image.h"
 #include "backlight/trace/sheet_tracer.h"
 
 namespace backlight {
 
+class ImageFile;
 class ProgressReporter;
 
 /// How the rays go: many at once, or one by one, every object asked: the law that all others obey to the last
@@ -66,23 +68,17 @@ struct RenderedImage {
   RenderStatistics statistics;
 };
 
-/// An image while it is made: its pixels so far, and which of them are final.
-struct PartialImage {
-  Image image;
-  /// A plane for each view, laid out as the image's: 1 where the pixel is final, 0 where it is still to be
-  /// traced. Different threads may write different pixels.
-  std::vector<std::vector<std::uint8_t>> done;
-
-  [[nodiscard]] bool is_complete() const;
-  /// Whether any pixel is final.
-  [[nodiscard]] bool has_any() const;
-};
-
 /// Number of tiles the image is cut into: the units that `progress` is advanced by.
 std::size_t tile_count(const Scene& scene, const RenderSettings& settings);
 
-/// The image before its first pixel is traced: all of it 0, and nothing done.
-PartialImage begin_image(const Scene& scene, const RenderSettings& settings);
+/// How many rows the bands of the scene's image have: whole rows of tiles, and of chunks of the file.
+int band_rows(const Scene& scene);
+
+/// Whether all rows of the image are kept until it is complete (PartialImage).
+bool keeps_rows(const Scene& scene);
+
+/// The image before its first pixel is traced.
+std::unique_ptr<PartialImage> begin_image(const Scene& scene, const RenderSettings& settings);
 
 /// Traces the pixels that are not done, until all are or `stop` turns true: the pixels in hand are then
 /// finished first, which takes a moment. `partial` is of this scene and these settings. Every pixel depends
@@ -96,17 +92,17 @@ RenderStatistics render_missing(const Scene& scene, const RenderSettings& settin
 /// An image in the hands of threads, tile by tile: what render_missing() does, for one who has the threads.
 class ImageTracing {
  public:
-  /// Everything given must outlive this.
+  /// Everything given must outlive this. `file`, where there is one, gets the rows of `partial`.
   ImageTracing(const Scene& scene, const RenderSettings& settings, PartialImage& partial,
-               const std::atomic<bool>& stop, ProgressReporter* progress);
+               const std::atomic<bool>& stop, ProgressReporter* progress, ImageFile* file = nullptr);
   ~ImageTracing();
   ImageTracing(const ImageTracing&) = delete;
   ImageTracing& operator=(const ImageTracing&) = delete;
 
   [[nodiscard]] std::size_t tile_count() const;
 
-  /// Traces what is missing of a tile, in any order, on thread 0 ... settings.threads - 1, each of which is
-  /// in one tile at a time. Throws as render_missing() does.
+  /// Traces what is missing of a tile, unless the file has no use for it, in any order, on thread 0 ...
+  /// settings.threads - 1, each of which is in one tile at a time. Throws as render_missing() does.
   void tile(std::size_t index, int thread);
 
   /// Of all tiles so far; none may be in hand. `seconds` is for the caller to fill in.

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "backlight/base/files.h"
@@ -256,12 +257,56 @@ TEST_F(Exr, TheSamePictureGivesTheSameBytesAndNoClock) {
   EXPECT_EQ(bytes.find("capDate"), std::string::npos);
 }
 
-TEST_F(Exr, SeveralThreadsGiveTheSameBytes) {
-  const ImageLayout layout{{0, 0, 500, 410}, {0, 0, 500, 410}, all_channels, {}};
+// The rows of a picture from `first` on, as planes of their own.
+std::vector<std::span<const float>> rows_of(const Image& image, int first, int count) {
+  const auto width = static_cast<std::size_t>(image.layout().data.width());
+  std::vector<std::span<const float>> planes;
+  for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
+    planes.push_back(image.plane(channel).subspan(width * static_cast<std::size_t>(first),
+                                                  width * static_cast<std::size_t>(count)));
+  }
+  return planes;
+}
+
+TEST_F(Exr, RowsEncodedInAnyOrderGiveTheSameBytesAndComeBack) {
+  const ImageLayout layout{{0, 0, 50, 50}, {3, 2, 47, 49}, all_channels, {}};
   const Image image = pattern(layout);
-  ASSERT_TRUE(write_exr(folder / "one.exr", image, {}).ok());
-  ASSERT_TRUE(write_exr(folder / "three.exr", image, {}, ColourStorage::automatic, 3).ok());
-  EXPECT_EQ(read_file(folder / "one.exr").value(), read_file(folder / "three.exr").value());
+  ASSERT_TRUE(write_exr(folder / "whole.exr", image, {}).ok());
+  Result<ExrWriter> writer = ExrWriter::open(folder / "rows.exr", layout, {});
+  ASSERT_TRUE(writer.ok()) << writer.error();
+  const auto last = writer.value().encode(34, rows_of(image, 32, 15), 15);
+  const auto first = writer.value().encode(2, rows_of(image, 0, 32), 32);
+  ASSERT_TRUE(first.ok() && last.ok());
+  EXPECT_FALSE(writer.value().encode(3, rows_of(image, 1, 16), 16).ok());
+  EXPECT_FALSE(writer.value().encode(2, rows_of(image, 0, 15), 15).ok());
+  ASSERT_TRUE(writer.value().write(first.value()).ok());
+
+  const ExrPicture whole = read_exr(folder / "whole.exr").value();
+  std::vector<std::vector<float>> back(image.channel_count(), std::vector<float>(44 * 16));
+  const std::vector<std::span<float>> planes(back.begin(), back.end());
+  EXPECT_FALSE(writer.value().read_back(34, planes, 15).ok());
+  ASSERT_TRUE(writer.value().read_back(18, planes, 16).ok());
+  for (std::size_t channel = 0; channel < planes.size(); ++channel) {
+    const auto found = static_cast<std::size_t>(whole.image.find_channel(layout.channels[channel].name));
+    EXPECT_EQ(std::memcmp(planes[channel].data(), whole.image.plane(found).data() + 44 * 16,
+                          planes[channel].size_bytes()),
+              0)
+        << layout.channels[channel].name;
+  }
+
+  ASSERT_TRUE(writer.value().write(last.value()).ok());
+  ASSERT_TRUE(writer.value().commit().ok());
+  EXPECT_EQ(read_file(folder / "rows.exr").value(), read_file(folder / "whole.exr").value());
+}
+
+TEST_F(Exr, RowsOutOfOrderAreRefused) {
+  const ImageLayout layout{{0, 0, 9, 40}, {0, 0, 9, 40}, all_channels, {}};
+  const Image image = pattern(layout);
+  Result<ExrWriter> writer = ExrWriter::open(folder / "rows.exr", layout, {});
+  const auto second = writer.value().encode(16, rows_of(image, 16, 16), 16);
+  EXPECT_FALSE(writer.value().write(second.value()).ok());
+  EXPECT_FALSE(writer.value().commit().ok());
+  EXPECT_EQ(entries(), 0);
 }
 
 TEST_F(Exr, RowsGivenInPiecesGiveTheSameBytes) {

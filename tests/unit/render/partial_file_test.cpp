@@ -26,12 +26,16 @@ class PartialFile : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder); }
 
-  static PartialImage empty(const std::vector<std::string>& views = {}) {
+  static ImageLayout layout(const std::vector<std::string>& views = {}) {
     const std::vector<ChannelInfo> channels{{"R", ChannelPrecision::half}, {"Z", ChannelPrecision::single}};
-    PartialImage partial{Image({{0, 0, 20, 30}, {2, 3, 12, 25}, channels_of_views(channels, views), views}),
-                         {}};
-    partial.done.assign(std::max<std::size_t>(views.size(), 1), std::vector<std::uint8_t>(10 * 22, 0));
-    return partial;
+    return {{0, 0, 20, 30}, {2, 3, 12, 25}, channels_of_views(channels, views), views};
+  }
+  static constexpr int rows = 16;  // of a band: there are two
+
+  // The first pixels of the first band.
+  static void set_done(RowBand& band, std::size_t view, std::size_t count) {
+    std::fill_n(band.done[view].begin(), count, std::uint8_t{1});
+    band.missing -= count;
   }
 
   fs::path folder;
@@ -44,51 +48,66 @@ TEST_F(PartialFile, StandsBesideTheImage) {
 
 TEST_F(PartialFile, GivesEveryBitBack) {
   for (const std::vector<std::string>& views : {std::vector<std::string>{}, {"left", "right"}}) {
-    PartialImage partial = empty(views);
-    for (std::size_t channel = 0; channel < partial.image.channel_count(); ++channel) {
+    PartialImage partial(layout(views), rows, true);
+    RowBand& band = *partial.begin(0);
+    for (std::size_t channel = 0; channel < band.image.channel_count(); ++channel) {
       for (std::size_t i = 0; i < 100; ++i) {
-        partial.image.plane(channel)[i] = 1.0F / (static_cast<float>(i) + 0.3F) + 1e6F * float(channel);
+        band.image.plane(channel)[i] = 1.0F / (static_cast<float>(i) + 0.3F) + 1e6F * float(channel);
       }
-      partial.image.plane(channel)[5] = std::numeric_limits<float>::infinity();
-      partial.image.plane(channel)[6] = -0.0F;
-      partial.image.plane(channel)[7] = std::numeric_limits<float>::denorm_min();
+      band.image.plane(channel)[5] = std::numeric_limits<float>::infinity();
+      band.image.plane(channel)[6] = -0.0F;
+      band.image.plane(channel)[7] = std::numeric_limits<float>::denorm_min();
     }
-    for (auto& plane : partial.done) std::fill(plane.begin(), plane.begin() + 100, std::uint8_t{1});
-    partial.done.back()[3] = 0;
+    for (std::size_t view = 0; view < band.done.size(); ++view) set_done(band, view, 100);
     ASSERT_TRUE(write_partial(folder / "p.exr", partial, header).ok());
     EXPECT_EQ(*read_exr_info(folder / "p.exr").value().header.find<std::int32_t>("backlight/complete"), 0);
 
-    PartialImage back = empty(views);
+    PartialImage back(layout(views), rows, true);
     const auto read = read_partial(folder / "p.exr", "me", back);
     ASSERT_TRUE(read.ok()) << read.error();
-    EXPECT_EQ(back.done, partial.done);
-    for (std::size_t channel = 0; channel < partial.image.channel_count(); ++channel) {
-      const auto wrote = partial.image.plane(channel);
-      EXPECT_EQ(std::memcmp(wrote.data(), back.image.plane(channel).data(), wrote.size_bytes()), 0)
+    EXPECT_EQ(back.begin(0)->done, band.done);
+    EXPECT_EQ(back.begin(0)->missing, band.missing);
+    EXPECT_EQ(back.find(1), nullptr);
+    for (std::size_t channel = 0; channel < band.image.channel_count(); ++channel) {
+      const auto wrote = band.image.plane(channel);
+      EXPECT_EQ(std::memcmp(wrote.data(), back.find(0)->image.plane(channel).data(), wrote.size_bytes()), 0)
           << channel;
     }
-    EXPECT_EQ(back.image.layout().channels, partial.image.layout().channels);
+  }
+}
+
+TEST_F(PartialFile, IsZeroWhereNothingIsDone) {
+  PartialImage partial(layout(), rows, true);
+  RowBand& band = *partial.begin(0);
+  for (std::size_t channel = 0; channel < 2; ++channel) std::ranges::fill(band.image.plane(channel), 7.0F);
+  set_done(band, 0, 3);
+  ASSERT_TRUE(write_partial(folder / "p.exr", partial, header).ok());
+  const Image image = read_exr(folder / "p.exr").value().image;
+  for (const char* name : {"R", "Z"}) {
+    const auto plane = image.plane(static_cast<std::size_t>(image.find_channel(name)));
+    EXPECT_EQ(plane[2], 7.0F);
+    EXPECT_EQ(plane[3], 0.0F);
+    EXPECT_EQ(plane[200], 0.0F);
   }
 }
 
 TEST_F(PartialFile, IsRefusedWhenItIsOfSomethingElse) {
-  ASSERT_TRUE(write_partial(folder / "p.exr", empty(), header).ok());
-  PartialImage other = empty();
+  ASSERT_TRUE(write_partial(folder / "p.exr", PartialImage(layout(), rows, true), header).ok());
+  PartialImage other(layout(), rows, true);
   EXPECT_FALSE(read_partial(folder / "p.exr", "somebody", other).ok());
   EXPECT_FALSE(read_partial(folder / "none.exr", "me", other).ok());
-  PartialImage stereo = empty({"left", "right"});
+  PartialImage stereo(layout({"left", "right"}), rows, true);
   EXPECT_FALSE(read_partial(folder / "p.exr", "me", stereo).ok());
-  PartialImage larger{Image({{0, 0, 20, 30}, {0, 0, 20, 30}, other.image.layout().channels, {}}),
-                      {std::vector<std::uint8_t>(600, 0)}};
+  PartialImage larger({{0, 0, 20, 30}, {0, 0, 20, 30}, layout().channels, {}}, rows, true);
   EXPECT_FALSE(read_partial(folder / "p.exr", "me", larger).ok());
   // An image that was finished is no partial one: it has no mask.
-  ASSERT_TRUE(write_exr(folder / "whole.exr", other.image, header).ok());
+  ASSERT_TRUE(write_exr(folder / "whole.exr", Image(layout()), header).ok());
   EXPECT_FALSE(read_partial(folder / "whole.exr", "me", other).ok());
 }
 
 TEST_F(PartialFile, IsNotACompleteImage) {
-  PartialImage partial = empty();
-  ASSERT_TRUE(write_exr(folder / "a.exr", partial.image, header).ok());
+  Image image(layout());
+  ASSERT_TRUE(write_exr(folder / "a.exr", image, header).ok());
   EXPECT_TRUE(is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 12, 25}, ColourStorage::automatic));
   EXPECT_FALSE(is_complete_image(folder / "a.exr", "me", std::nullopt, ColourStorage::automatic));
   EXPECT_FALSE(is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 13, 25}, ColourStorage::automatic));
@@ -99,14 +118,14 @@ TEST_F(PartialFile, IsNotACompleteImage) {
     return is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 12, 25}, storage);
   };
   EXPECT_FALSE(is_complete(ColourStorage::always_float));
-  ASSERT_TRUE(write_exr(folder / "a.exr", partial.image, header, ColourStorage::always_float).ok());
+  ASSERT_TRUE(write_exr(folder / "a.exr", image, header, ColourStorage::always_float).ok());
   EXPECT_TRUE(is_complete(ColourStorage::always_float));
   EXPECT_FALSE(is_complete(ColourStorage::automatic));
-  partial.image.at(0, 5, 5) = 70000.0F;
-  ASSERT_TRUE(write_exr(folder / "a.exr", partial.image, header).ok());
+  image.at(0, 5, 5) = 70000.0F;
+  ASSERT_TRUE(write_exr(folder / "a.exr", image, header).ok());
   EXPECT_TRUE(is_complete(ColourStorage::always_float));
   EXPECT_TRUE(is_complete(ColourStorage::automatic));
-  ASSERT_TRUE(write_partial(folder / "a.exr", partial, header).ok());
+  ASSERT_TRUE(write_partial(folder / "a.exr", PartialImage(layout(), rows, true), header).ok());
   EXPECT_FALSE(is_complete_image(folder / "a.exr", "me", PixelBox{2, 3, 12, 25}, ColourStorage::automatic));
 }
 

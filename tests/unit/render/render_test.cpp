@@ -47,17 +47,20 @@ TEST(RenderImage, GivesNothingWhenItIsStopped) {
 TEST(RenderMissing, TracesWhatIsNotDoneAndNothingElse) {
   const Scene scene = empty_scene();
   const RenderSettings settings{.threads = 2};
-  PartialImage partial = begin_image(scene, settings);
-  ASSERT_EQ(partial.done.size(), 1U);
-  EXPECT_FALSE(partial.is_complete());
-  const std::size_t kept = partial.image.offset(7, 11);
-  std::ranges::fill(partial.done[0], std::uint8_t{1});
-  partial.done[0][kept] = 0;
-  const RenderStatistics statistics = render_missing(scene, settings, partial, go_on, nullptr);
+  const auto partial = begin_image(scene, settings);
+  EXPECT_EQ(partial->view_count(), 1U);
+  EXPECT_FALSE(partial->is_complete());
+  EXPECT_FALSE(partial->has_any());
+  ASSERT_EQ(partial->band_count(), 1U);
+  RowBand& band = *partial->begin(0);
+  std::ranges::fill(band.done[0], std::uint8_t{1});
+  band.done[0][band.image.offset(7, 11)] = 0;
+  band.missing = 1;
+  const RenderStatistics statistics = render_missing(scene, settings, *partial, go_on, nullptr);
   EXPECT_EQ(statistics.rays.primary, 4U);
-  EXPECT_TRUE(partial.is_complete());
-  EXPECT_EQ(partial.image.at(0, 7, 11), 1.0F);
-  EXPECT_EQ(partial.image.at(0, 8, 11), 0.0F);
+  EXPECT_TRUE(partial->is_complete());
+  EXPECT_EQ(partial->whole().at(0, 7, 11), 1.0F);
+  EXPECT_EQ(partial->whole().at(0, 8, 11), 0.0F);
 }
 
 TEST(RenderMissing, GoesOnWhereItWasStopped) {
@@ -65,14 +68,20 @@ TEST(RenderMissing, GoesOnWhereItWasStopped) {
   scene.camera.stereo = Stereo{};
   const RenderSettings settings{.threads = 1};
   const auto whole = render_image(scene, settings, go_on, nullptr);
-  PartialImage partial = begin_image(scene, settings);
-  ASSERT_EQ(partial.done.size(), 2U);
-  for (std::size_t i = 0; i < partial.done[1].size(); i += 3) partial.done[1][i] = 1;
-  std::vector<std::uint8_t> left_alone = partial.done[1];
-  render_missing(scene, settings, partial, go_on, nullptr);
-  const auto right = static_cast<std::size_t>(partial.image.find_channel("right.R"));
+  const auto partial = begin_image(scene, settings);
+  ASSERT_EQ(partial->view_count(), 2U);
+  RowBand& band = *partial->begin(0);
+  for (std::size_t i = 0; i < band.done[1].size(); i += 3) {
+    band.done[1][i] = 1;
+    --band.missing;
+  }
+  const std::vector<std::uint8_t> left_alone = band.done[1];
+  render_missing(scene, settings, *partial, go_on, nullptr);
+  EXPECT_TRUE(partial->is_complete());
+  const Image image = partial->whole();
+  const auto right = static_cast<std::size_t>(image.find_channel("right.R"));
   for (std::size_t i = 0; i < left_alone.size(); ++i) {
-    EXPECT_EQ(partial.image.plane(right)[i], left_alone[i] != 0 ? 0.0F : whole->image.plane(right)[i]);
+    EXPECT_EQ(image.plane(right)[i], left_alone[i] != 0 ? 0.0F : whole->image.plane(right)[i]);
   }
 }
 

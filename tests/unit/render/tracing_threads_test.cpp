@@ -23,12 +23,12 @@ struct Work {
   explicit Work(double brightness) : scene(empty_scene(brightness)), partial(begin_image(scene, settings)) {}
 
   void start(const std::atomic<bool>& stop) {
-    tracing = std::make_unique<ImageTracing>(scene, settings, partial, stop, nullptr);
+    tracing = std::make_unique<ImageTracing>(scene, settings, *partial, stop, nullptr);
   }
 
   Scene scene;
   RenderSettings settings{.threads = 3};
-  PartialImage partial;
+  std::unique_ptr<PartialImage> partial;
   std::unique_ptr<ImageTracing> tracing;
 };
 
@@ -51,10 +51,10 @@ TEST(TracingThreads, TraceWhatRenderImageDoes) {
   }
   for (const auto& work : all) {
     EXPECT_GE(threads.finish(), 0.0);
-    EXPECT_TRUE(work->partial.is_complete());
+    EXPECT_TRUE(work->partial->is_complete());
     const auto alone = render_image(work->scene, {}, never, nullptr);
     ASSERT_TRUE(alone);
-    EXPECT_TRUE(same_bits(alone->image, work->partial.image));
+    EXPECT_TRUE(same_bits(alone->image, work->partial->whole()));
     EXPECT_EQ(work->tracing->statistics().rays.primary, alone->statistics.rays.primary);
   }
   EXPECT_FALSE(threads.first_is_done());
@@ -76,17 +76,17 @@ TEST(TracingThreads, GoOnAfterAPause) {
   }
   threads.wait_for_tail();
   threads.finish();
-  EXPECT_FALSE(first.partial.has_any());
+  EXPECT_FALSE(first.partial->has_any());
   pause.store(false);
   threads.go_on_with(*first.tracing);
   threads.finish();
-  EXPECT_TRUE(first.partial.is_complete());
+  EXPECT_TRUE(first.partial->is_complete());
   threads.finish();
-  if (!second.partial.is_complete()) {  // it had been looked at during the pause
+  if (!second.partial->is_complete()) {  // it had been looked at during the pause
     threads.go_on_with(*second.tracing);
     threads.finish();
   }
-  EXPECT_TRUE(second.partial.is_complete());
+  EXPECT_TRUE(second.partial->is_complete());
 }
 
 // A lamp whose strength cannot be evaluated: such an exception must not end a thread, nor the other images.
@@ -114,7 +114,7 @@ TEST(TracingThreads, RethrowWhatATileThrows) {
   }
   EXPECT_THROW(threads.finish(), PixelFailure);
   threads.finish();
-  EXPECT_TRUE(good.partial.is_complete());
+  EXPECT_TRUE(good.partial->is_complete());
 }
 
 TEST(TracingTime, LostIsTheTimeWithoutATile) {
