@@ -90,14 +90,8 @@ void ViewRenderer::trace_missing(const PixelBox& box, const std::atomic<bool>& s
     return;
   }
   if (sheets_ != nullptr) {
-    try {
-      tile_in_sheets(box, stop, memory);
-      return;
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception&) {
-      // One by one, below, it turns out which pixel it was.
-    }
+    at_pixel(box.x0, box.y0, [&] { tile_in_sheets(box, stop, memory); });
+    return;
   }
   std::vector<TilePixel> pixels = memory.missing.pixels;
   std::ranges::sort(pixels, {}, [](const TilePixel& pixel) { return std::pair(pixel.y, pixel.x); });
@@ -115,7 +109,7 @@ void ViewRenderer::tile_to_tolerance(const PixelBox& box, const std::atomic<bool
     return true;
   };
   if (!m.sampler->tile(box, m.missing.pixels, small_things_, trace)) return;
-  write_all(m, nullptr, [&](std::size_t k) { return m.sampler->estimates()[k]; });
+  write_all(m, centres(m), [&](std::size_t k) { return m.sampler->estimates()[k]; });
 }
 
 SamplingPlan ViewRenderer::plan(ThreadMemory& memory) const {
@@ -131,18 +125,13 @@ SamplingPlan ViewRenderer::plan(ThreadMemory& memory) const {
 void ViewRenderer::trace_points(std::span<const ImagePoint> points, ThreadMemory& m,
                                 std::vector<PixelSample>& samples) const {
   samples.assign(points.size(), {});
-  if (sheets_ != nullptr) {
-    try {
-      sheets_->trace(points, eye_, *m.sheet, m.scratch, m.light);
-      for (std::size_t k = 0; k < points.size(); ++k) {
-        if (m.light.covered[k] != 0) samples[k] = {m.light.colour(k), true};
-      }
-      return;
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception&) {
-      // One by one, below, it turns out which pixel it was.
+  if (sheets_ != nullptr && !points.empty()) {
+    at_pixel(static_cast<int>(points[0].x), static_cast<int>(points[0].y),
+             [&] { sheets_->trace(points, eye_, *m.sheet, m.scratch, m.light); });
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (m.light.covered[k] != 0) samples[k] = {m.light.colour(k), true};
     }
+    return;
   }
   for (std::size_t k = 0; k < points.size(); ++k) {
     const ImagePoint& point = points[k];
@@ -191,10 +180,19 @@ void ViewRenderer::tile_in_sheets(const PixelBox& box, const std::atomic<bool>& 
       return PixelEstimate{LinearRgb{0.0} + m.light.colour(k), double(m.light.covered[k]), 1};
     });
   } else {
-    write_all(m, known, [&](std::size_t k) {
+    write_all(m, centres(m), [&](std::size_t k) {
       return PixelEstimate{m.sums[k] / double(samples), double(m.covered[k]) / samples, samples};
     });
   }
+}
+
+// What the centres of the missing pixels see, where that is all that the data channels are made of; or null.
+const std::vector<SurfaceRecord>* ViewRenderer::centres(ThreadMemory& m) const {
+  if (sheets_ == nullptr || !has_data_ || has_light_channels(tracer_.scene())) return nullptr;
+  m.centres.clear();
+  for (const TilePixel& pixel : m.missing.pixels) m.centres.push_back({pixel.x + 0.5, pixel.y + 0.5});
+  sheets_->surfaces(m.centres, eye_, *m.sheet, m.scratch, m.light);
+  return &m.light.record;
 }
 
 void ViewRenderer::pixel(int x, int y, ThreadMemory& m) const {

@@ -33,6 +33,7 @@ struct ThreadMemory {
   std::optional<PixelWriter> writer;  // into that band
   MissingPixels missing;
   std::vector<LinearRgb> sums;
+  std::vector<ImagePoint> centres;  // of pixels
   std::vector<int> covered;
   std::optional<AdaptiveSampler> sampler;  // where the number of samples is chosen
   SampleCounts samples;
@@ -95,6 +96,8 @@ class ViewRenderer {
 
   // The same as pixel(), for all at once.
   void tile_in_sheets(const PixelBox& box, const std::atomic<bool>& stop, ThreadMemory& m) const;
+
+  const std::vector<SurfaceRecord>* centres(ThreadMemory& m) const;
 
   void pixel(int x, int y, ThreadMemory& m) const;
 

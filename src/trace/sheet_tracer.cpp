@@ -126,12 +126,13 @@ class SheetSearch {
 // The colours of a tile, once it is known what its rays meet.
 class SheetPainter {
  public:
-  SheetPainter(const Tracer& tracer, const SheetScene& scene, int eye, bool records, SheetScratch& work,
+  SheetPainter(const Tracer& tracer, const SheetScene& scene, int eye, TileAnswers wanted, SheetScratch& work,
                Scratch& scratch, TileLight& light)
       : tracer_(tracer),
         scene_(scene),
         eye_(eye),
-        records_(records),
+        colours_(wanted.colours),
+        records_(wanted.records),
         work_(work),
         scratch_(scratch),
         light_(light),
@@ -149,7 +150,7 @@ class SheetPainter {
     if (work_.groups.empty()) return;
     shader_.begin_tile(effects);
     work_.points.light_delay = effects.light_delay;
-    if (shader_.wants_packets()) {
+    if (colours_ && shader_.wants_packets()) {
       for_each_sheet([&] { shader_.collect(); });
       shader_.sift_packets();
     }
@@ -250,8 +251,10 @@ class SheetPainter {
     const bool dark = !hit.found() && !tracer_.scene().sky.emits;
     const CameraRay ray = camera_ray_of(tracer_.scene(), sheet.rays, lane, eye_);
     scratch_.rays.start(ray);
-    if (hit.found()) ++scratch_.counts.single;
-    light_.set_colour(place, dark ? LinearRgb{0.0} : tracer_.colour_of(ray, hit, *sheet.effects, scratch_));
+    if (colours_) {
+      if (hit.found()) ++scratch_.counts.single;
+      light_.set_colour(place, dark ? LinearRgb{0.0} : tracer_.colour_of(ray, hit, *sheet.effects, scratch_));
+    }
     if (records_) light_.record[place] = tracer_.surface_of(ray, hit, scratch_);
   }
 
@@ -314,8 +317,8 @@ class SheetPainter {
         const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
         one_ray(sheet, p.lane[i] % sheet_size, shader_.hit(i));
       }
-    } else if (shader_.resolve()) {
-      shader_.shade(effects);
+    } else if (shader_.resolve() || !colours_) {
+      if (colours_) shader_.shade(effects);
       put_colours();
     } else {
       paint_by_material(effects);
@@ -346,7 +349,7 @@ class SheetPainter {
 
   void put_colours() {
     const PointSheet& p = work_.points;
-    for (int i = 0; i < p.count; ++i) {
+    for (int i = 0; i < p.count && colours_; ++i) {
       if (p.hits->is_unresolved(i)) ++scratch_.counts.unresolved;
     }
     if (p.whole >= 0 && !records_) {
@@ -357,7 +360,7 @@ class SheetPainter {
     for (int i = 0; i < p.count; ++i) {
       const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
       const auto place = static_cast<std::size_t>(sheet.place[p.lane[i] % sheet_size]);
-      light_.set_colour(place, {p.rgb[0][i], p.rgb[1][i], p.rgb[2][i]});
+      if (colours_) light_.set_colour(place, {p.rgb[0][i], p.rgb[1][i], p.rgb[2][i]});
       if (records_) light_.record[place] = record_of(i);
     }
   }
@@ -382,7 +385,7 @@ class SheetPainter {
   const Tracer& tracer_;
   const SheetScene& scene_;
   int eye_;
-  bool records_;
+  bool colours_, records_;
   SheetScratch& work_;
   Scratch& scratch_;
   TileLight& light_;
@@ -410,28 +413,33 @@ std::unique_ptr<SheetScratch, void (*)(SheetScratch*)> SheetTracer::make_scratch
 void SheetTracer::trace(std::span<const TilePixel> pixels, std::int64_t image_number, int sample, int eye,
                         bool records, SheetScratch& work, Scratch& scratch, TileLight& light) const {
   make_rays(tracer_->scene(), scene_->kernels(), pixels, image_number, sample, work);
-  trace_sheets(pixels.size(), eye, records, work, scratch, light);
+  scratch.counts.primary += trace_sheets(pixels.size(), eye, {true, records}, work, scratch, light);
 }
 
 void SheetTracer::trace(std::span<const ImagePoint> points, int eye, SheetScratch& work, Scratch& scratch,
                         TileLight& light) const {
   make_rays(tracer_->scene(), scene_->kernels(), points, work);
-  trace_sheets(points.size(), eye, false, work, scratch, light);
+  scratch.counts.primary += trace_sheets(points.size(), eye, {true, false}, work, scratch, light);
 }
 
-void SheetTracer::trace_sheets(std::size_t count, int eye, bool records, SheetScratch& work, Scratch& scratch,
-                               TileLight& light) const {
-  light.record.assign(records ? count : 0, SurfaceRecord{});
+void SheetTracer::surfaces(std::span<const ImagePoint> points, int eye, SheetScratch& work, Scratch& scratch,
+                           TileLight& light) const {
+  make_rays(tracer_->scene(), scene_->kernels(), points, work);
+  scratch.counts.data += trace_sheets(points.size(), eye, {false, true}, work, scratch, light);
+}
+
+std::size_t SheetTracer::trace_sheets(std::size_t count, int eye, TileAnswers wanted, SheetScratch& work,
+                                      Scratch& scratch, TileLight& light) const {
+  light.record.assign(wanted.records ? count : 0, SurfaceRecord{});
   std::size_t rays = 0;
   for (const auto& sheet : work.sheets) rays += static_cast<std::size_t>(sheet.rays.count);
-  scratch.counts.primary += rays;
   const bool all_shown = rays == count;
   light.covered.assign(count, all_shown ? 1 : 0);
   for (std::vector<double>& channel : light.rgb) {
     channel.resize(count);
     if (!all_shown) std::ranges::fill(channel, 0.0);
   }
-  if (rays == 0) return;
+  if (rays == 0) return 0;
   for (std::size_t i = 0; !all_shown && i < work.sheets.size(); ++i) {
     const TileSheet& sheet = work.sheets[i];
     for (int lane = 0; lane < sheet.rays.count; ++lane) {
@@ -439,7 +447,8 @@ void SheetTracer::trace_sheets(std::size_t count, int eye, bool records, SheetSc
     }
   }
   SheetSearch(*tracer_, *scene_, eye, work, scratch).find();
-  SheetPainter(*tracer_, *scene_, eye, records, work, scratch, light).paint();
+  SheetPainter(*tracer_, *scene_, eye, wanted, work, scratch, light).paint();
+  return rays;
 }
 
 const char* SheetTracer::instructions() const {

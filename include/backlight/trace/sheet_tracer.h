@@ -34,6 +34,12 @@ struct TileLight {
   }
 };
 
+/// What is wanted of the rays of a tile.
+struct TileAnswers {
+  bool colours;
+  bool records;
+};
+
 class SheetScene;
 struct SheetScratch;
 
@@ -60,12 +66,17 @@ class SheetTracer {
   void trace(std::span<const ImagePoint> points, int eye, SheetScratch& sheets, Scratch& scratch,
              TileLight& light) const;
 
+  /// What Tracer::surface gives for the rays through these points, into light.record alone.
+  void surfaces(std::span<const ImagePoint> points, int eye, SheetScratch& sheets, Scratch& scratch,
+                TileLight& light) const;
+
   /// The instruction set in use, by name.
   [[nodiscard]] const char* instructions() const;
 
  private:
-  void trace_sheets(std::size_t count, int eye, bool records, SheetScratch& sheets, Scratch& scratch,
-                    TileLight& light) const;
+  /// Returns how many of them the projection shows.
+  std::size_t trace_sheets(std::size_t count, int eye, TileAnswers wanted, SheetScratch& sheets,
+                           Scratch& scratch, TileLight& light) const;
 
   const Tracer* tracer_;
   InstructionSet instructions_;
