@@ -20,10 +20,10 @@ class SplineWeights;
 /// steep as it likes; the reflectance alone is interpolated.
 ///
 /// There are rows of D65 by its shift s, of each doubling 128, and rows of blackbodies by temperature times
-/// shift, all of which are one family, of each doubling 256, or 64 with weights. In between, the film colour
-/// of the whole light follows the cubic that has the rows' values and slopes, weights the cubic through the
-/// four rows around. A row, and its weights, are made when they are first asked for, from any thread, and
-/// depend on nothing but the row's number.
+/// shift, all of which are one family, of each doubling 256, of their weights 64, or 16 above 8192 K. In
+/// between, the film colour of the whole light follows the cubic that has the rows' values and slopes,
+/// weights the cubic through the four rows around. A row, and its weights, are made when they are first asked
+/// for, from any thread, and depend on nothing but the row's number.
 class LightRows {
  public:
   /// What one row has, of light divided by e^log_scale.
