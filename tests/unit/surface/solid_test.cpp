@@ -272,84 +272,63 @@ std::vector<SolidTree> solids_of_formulas() {
   return solids;
 }
 
-/// Rays as arrays, at something about the origin: from outside, and from within.
-struct Sheet {
-  static constexpr std::size_t count = 50;
-  double numbers[8][count]{};
+/// Rays at something about the origin: from outside, and from within.
+struct Rays {
+  static constexpr int count = 50;
+  static constexpr std::uint64_t all = (std::uint64_t{1} << count) - 1;
+  RaySheet sheet;
 
-  explicit Sheet(Random& random) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 origin = random.vector(i % 2 == 0 ? 3.0 : 0.9);
-      const Vec3 direction = random.vector(0.8) - (i % 2 == 0 ? origin : Vec3{0.0});
-      for (int axis = 0; axis < 3; ++axis) {
-        numbers[axis][i] = origin[axis];
-        numbers[3 + axis][i] = direction[axis];
+  explicit Rays(Random& random) {
+    sheet.padded = 56;
+    for (int i = 0; i < sheet.padded; ++i) {
+      const Vec3 from = random.vector(i % 2 == 0 ? 3.0 : 0.9);
+      const Vec3 towards = random.vector(0.8) - (i % 2 == 0 ? from : Vec3{0.0});
+      for (int k = 0; k < 3; ++k) {
+        sheet.origin[k][i] = from[k];
+        sheet.direction[k][i] = towards[k];
       }
+      sheet.length[i] = glm::length(towards);
+      sheet.start_time[i] = sheet.time_rate[i] = 0.0;
     }
   }
-  [[nodiscard]] SurfaceSet::Rays rays() const {
-    return {count,
-            {numbers[0], numbers[1], numbers[2]},
-            {numbers[3], numbers[4], numbers[5]},
-            numbers[6],
-            numbers[7]};
+  [[nodiscard]] Vec3 origin(int i) const { return {sheet.origin[0][i], sheet.origin[1][i], sheet.origin[2][i]}; }
+  [[nodiscard]] Vec3 direction(int i) const {
+    return {sheet.direction[0][i], sheet.direction[1][i], sheet.direction[2][i]};
   }
-  [[nodiscard]] Vec3 origin(std::size_t i) const { return {numbers[0][i], numbers[1][i], numbers[2][i]}; }
-  [[nodiscard]] Vec3 direction(std::size_t i) const { return {numbers[3][i], numbers[4][i], numbers[5][i]}; }
 };
 
 // What is found of a ray does not depend on those that are asked together with it.
 TEST(Solid, RaysFindTogetherWhatEachFindsAlone) {
   Random random(11);
-  int hits = 0;
+  int found = 0;
   for (const SolidTree& tree : solids_of_formulas()) {
     const SurfaceSet set = set_of(tree);
-    const Sheet sheet(random);
-    std::vector<Hit> together(Sheet::count);
-    set.first_crossings_of(0, sheet.rays(), together);
-    bool blocked[Sheet::count];
-    set.blocked_by(0, sheet.rays(), 0.7, blocked);
-    for (std::size_t i = 0; i < Sheet::count; ++i) {
-      const Hit alone = set.first_crossing_of(0, sheet.origin(i), sheet.direction(i));
-      ASSERT_EQ(together[i].found(), alone.found());
-      EXPECT_EQ(blocked[i], alone.found() && alone.lambda < 0.7);
+    const Rays rays(random);
+    SheetHits hits;
+    hits.clear(sheet_size);
+    set.nearest(rays.sheet, Rays::all, 0.0, hits);
+    const std::uint64_t blocked = set.blocked(rays.sheet, Rays::all, 0.7);
+    SheetPoints points;
+    for (int i = 0; i < Rays::count; ++i) {
+      const Hit alone = set.first_crossing_of(0, rays.origin(i), rays.direction(i));
+      ASSERT_EQ(hits.who[i] == 0.0, alone.found());
+      EXPECT_EQ((blocked >> i) & 1U, alone.found() && alone.lambda < 0.7 ? 1U : 0U);
       if (!alone.found()) continue;
-      ++hits;
-      EXPECT_EQ(together[i].lambda, alone.lambda);
-      EXPECT_EQ(together[i].part, alone.part);
-      EXPECT_EQ(together[i].unresolved, alone.unresolved);
+      ++found;
+      EXPECT_EQ(hits.lambda[i], alone.lambda);
+      EXPECT_EQ(hits.part_of(i), alone.part);
+      EXPECT_EQ(hits.is_unresolved(i), alone.unresolved);
+      set.points(rays.sheet, 0, i, i + 1, hits, true, points);
+      const SurfacePoint point = set.resolve(alone, rays.origin(i), rays.direction(i));
+      EXPECT_EQ((Vec3{points.position[0][i], points.position[1][i], points.position[2][i]}), point.position);
+      EXPECT_EQ((Vec3{points.normal[0][i], points.normal[1][i], points.normal[2][i]}), point.normal);
+      EXPECT_EQ(points.u[i], point.u);
+      EXPECT_EQ(points.v[i], point.v);
+      EXPECT_EQ(points.member[i], point.member);
+      EXPECT_EQ(points.error_bound[i], point.error_bound);
     }
   }
-  EXPECT_GT(hits, 500);
-}
-
-TEST(Solid, PointsAreResolvedTogetherAsEachAlone) {
-  Random random(12);
-  for (const SolidTree& tree : solids_of_formulas()) {
-    const SurfaceSet set = set_of(tree);
-    Sheet sheet(random);
-    std::vector<Hit> hits;
-    for (std::size_t i = 0; i < Sheet::count; ++i) {
-      const Hit hit = set.first_crossing_of(0, sheet.origin(i), sheet.direction(i));
-      if (!hit.found()) continue;
-      for (auto& array : sheet.numbers) array[hits.size()] = array[i];
-      hits.push_back(hit);
-    }
-    if (hits.empty()) continue;
-    SurfaceSet::Rays rays = sheet.rays();
-    rays.count = hits.size();
-    std::vector<SurfacePoint> points(hits.size());
-    set.resolve_all(hits, rays, true, points);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      const SurfacePoint alone = set.resolve(hits[i], sheet.origin(i), sheet.direction(i));
-      EXPECT_EQ(points[i].position, alone.position);
-      EXPECT_EQ(points[i].normal, alone.normal);
-      EXPECT_EQ(points[i].u, alone.u);
-      EXPECT_EQ(points[i].v, alone.v);
-      EXPECT_EQ(points[i].member, alone.member);
-      EXPECT_EQ(points[i].error_bound, alone.error_bound);
-    }
-  }
+  EXPECT_GT(found, 500);
 }
 
 // An ellipsoid whose formula is negative outside is solid there, also where the line is far from it.
