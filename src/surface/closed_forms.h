@@ -4,8 +4,8 @@
 // A form is a type with
 //   crossings(values, line): where a line crosses it, in order;
 //   inside_before(values, line): whether the line comes from inside; if that may be so;
-//   point(values, p, part): the point next to p put onto the surface, with its gradient, which points outward;
-//   unit_gradient: whether its length is 1.
+//   point(values, p, part): the point next to p put onto the surface, with its gradient, which points
+//   outward; unit_gradient: whether its length is 1.
 #pragma once
 
 #include "lane_surface.h"
@@ -162,7 +162,8 @@ struct FrustumForm {
  private:
   /// x²+z² <= w(y)² with w = middle + slope·y >= 0.
   template <class V>
-  static BACKLIGHT_LANES void narrow_to_side(LaneStretch<V>& stretch, V middle, V slope, const LaneLine<V>& line) {
+  static BACKLIGHT_LANES void narrow_to_side(LaneStretch<V>& stretch, V middle, V slope,
+                                             const LaneLine<V>& line) {
     using Mask = typename V::Mask;
     const LaneVec3<V>& p = line.point;
     const LaneVec3<V>& d = line.direction;
@@ -211,8 +212,8 @@ struct FlatForm {
   }
   // The half-space y < 0 of a plane.
   template <class V>
-    requires(!is_disk)
-  static BACKLIGHT_LANES typename V::Mask inside_before(const double* /*values*/, const LaneLine<V>& line) {
+  requires(!is_disk) static BACKLIGHT_LANES typename V::Mask
+      inside_before(const double* /*values*/, const LaneLine<V>& line) {
     return select(line.direction.y == V(0.0), line.point.y, -line.direction.y) < V(0.0);
   }
   template <class V>
@@ -253,8 +254,8 @@ struct QuadricForm {
         sum = sum + term;
         size = size + magnitude(term);
       }
-      // Along an asymptote the quadratic term is rounding noise, and would invent a crossing some 1e16 lengths
-      // away.
+      // Along an asymptote the quadratic term is rounding noise, and would invent a crossing some 1e16
+      // lengths away.
       a = select(magnitude(sum) <= V(8.0 * epsilon) * size, V(0.0), sum);
       const LaneVec3<V> half_gradient{V(q[0]) * p.x + V(0.5) * (V(q[3]) * p.y + V(q[4]) * p.z + V(q[6])),
                                       V(q[1]) * p.y + V(0.5) * (V(q[3]) * p.x + V(q[5]) * p.z + V(q[7])),
@@ -288,8 +289,10 @@ struct QuadricForm {
     const LaneVec3<V> gradient{V(2.0 * q[0]) * p.x + V(q[3]) * p.y + V(q[4]) * p.z + V(q[6]),
                                V(2.0 * q[1]) * p.y + V(q[3]) * p.x + V(q[5]) * p.z + V(q[7]),
                                V(2.0 * q[2]) * p.z + V(q[4]) * p.x + V(q[5]) * p.y + V(q[8])};
-    const V terms[10] = {V(q[0]) * p.x * p.x, V(q[1]) * p.y * p.y, V(q[2]) * p.z * p.z, V(q[3]) * p.x * p.y,
-                         V(q[4]) * p.x * p.z, V(q[5]) * p.y * p.z, V(q[6]) * p.x,       V(q[7]) * p.y,
+    const V terms[10] = {V(q[0]) * p.x * p.x, V(q[1]) * p.y * p.y,
+                         V(q[2]) * p.z * p.z, V(q[3]) * p.x * p.y,
+                         V(q[4]) * p.x * p.z, V(q[5]) * p.y * p.z,
+                         V(q[6]) * p.x,       V(q[7]) * p.y,
                          V(q[8]) * p.z,       V(q[9])};
     V value(0.0), size(0.0);
     for (const V& term : terms) {

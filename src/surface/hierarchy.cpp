@@ -132,7 +132,9 @@ class Builder {
 
   /// Reorders [first, last) into two non-empty parts and returns where the second begins.
   int partition(int first, int last, int depth) {
-    const auto box_of = [&](int surface) -> const AxisBox& { return boxes_[static_cast<std::size_t>(surface)]; };
+    const auto box_of = [&](int surface) -> const AxisBox& {
+      return boxes_[static_cast<std::size_t>(surface)];
+    };
     const auto begin = order_.begin() + first;
     const auto end = order_.begin() + last;
     Vec3 low{1e308};

@@ -116,7 +116,8 @@ BACKLIGHT_LANES LanePoint<V> in_rest_frame(const LaneSurface& surface, const Lan
   if (!surface.aligned || !unit) result.normal = (V(1.0) / length(result.normal)) * result.normal;
   const bool bounded = surface.radius < __builtin_inf();
   const V reach = bounded ? V(surface.radius) : V(2.0) * length(offset);
-  result.error_bound = V(0x1p-48) * (largest_coordinate(centre) + reach) + point.error * V(surface.largest_scale);
+  result.error_bound =
+      V(0x1p-48) * (largest_coordinate(centre) + reach) + point.error * V(surface.largest_scale);
   return result;
 }
 

@@ -47,7 +47,8 @@ inline Vec3 vec3(const LaneVec3<Lanes<1>>& a) {
 
 inline LocalLine local_line(const RestRay& ray, const PlacedSurface& surface) {
   const LaneLine<Lanes<1>> line = lane_line(surface.lanes, one_lane(ray));
-  const double centre = line.lambda_centre.v, shift = line.lambda_shift.v, per_length = line.lambda_per_length.v;
+  const double centre = line.lambda_centre.v, shift = line.lambda_shift.v,
+               per_length = line.lambda_per_length.v;
   const RayClock clock{ray.clock.start + (centre + shift) * ray.clock.rate, per_length * ray.clock.rate};
   return {vec3(line.point), vec3(line.direction), centre, shift, per_length, clock};
 }

@@ -46,8 +46,8 @@ AxisBox axis_box(const PlacedSurface& surface) {
   AxisBox box;
   for (int i = 0; i < 3; ++i) {
     const Extent extent = extent_along(surface.lanes.rest_from_local, i);
-    const double half = methods(surface.shape).half_extent(surface.shape, extent) + margin +
-                        4e-16 * std::abs(centre[i]);
+    const double half =
+        methods(surface.shape).half_extent(surface.shape, extent) + margin + 4e-16 * std::abs(centre[i]);
     box.lo[i] = centre[i] - half;
     box.hi[i] = centre[i] + half;
   }

@@ -20,7 +20,8 @@ SurfaceKernels baseline_surface_kernels() {
 }
 
 const SurfaceKernels& surface_kernels(InstructionSet set) {
-  static const SurfaceKernels kernels[] = {kernels_of(InstructionSet::widest), kernels_of(InstructionSet::avx2),
+  static const SurfaceKernels kernels[] = {kernels_of(InstructionSet::widest),
+                                           kernels_of(InstructionSet::avx2),
                                            kernels_of(InstructionSet::baseline)};
   return kernels[static_cast<int>(set)];  // in the order of the enumeration
 }

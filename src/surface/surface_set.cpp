@@ -154,7 +154,8 @@ Hit SurfaceSet::nearest(const Vec3& origin, const Vec3& direction, double lambda
   hits.lambda[0] = lambda_limit;
   Walk<1>::nearest(walk_surfaces(among, 0.0), ray, 1, hits);
   if (hits.who[0] < 0.0) return {};
-  return {hits.lambda[0], static_cast<int>(hits.who[0]), hits.part_of(0), hits.is_unresolved(0), hits.along[0]};
+  return {hits.lambda[0], static_cast<int>(hits.who[0]), hits.part_of(0), hits.is_unresolved(0),
+          hits.along[0]};
 }
 
 bool SurfaceSet::blocked(const Vec3& origin, const Vec3& direction, double lambda_max, const RayClock& clock,
@@ -184,8 +185,8 @@ SurfacePoint SurfaceSet::resolve(const Hit& hit, const Vec3& origin, const Vec3&
   }
   LocalLine there = line;
   const Vec3 offset = (origin - surface.position()) + hit.lambda * direction;
-  there.point = vec3(surface.lanes.aligned ? one_lane(offset)
-                                           : surface.lanes.local_from_rest.times(one_lane(offset)));
+  there.point =
+      vec3(surface.lanes.aligned ? one_lane(offset) : surface.lanes.local_from_rest.times(one_lane(offset)));
   return surface_point(surface, there, {0.0, hit.part, false});
 }
 

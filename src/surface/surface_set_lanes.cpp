@@ -112,14 +112,16 @@ WalkSurfaces SurfaceSet::walk_surfaces(Among among, double first_number) const {
           .blocked_by = blocked_by};
 }
 
-void SurfaceSet::nearest(const RaySheet& sheet, std::uint64_t rays, double first_number, SheetHits& hits) const {
+void SurfaceSet::nearest(const RaySheet& sheet, std::uint64_t rays, double first_number,
+                         SheetHits& hits) const {
   surface_kernels(sheet.instructions).nearest(walk_surfaces(Among::all, first_number), sheet, rays, hits);
 }
 
 std::uint64_t SurfaceSet::blocked(const RaySheet& sheet, std::uint64_t rays, double lambda_max,
                                   double first_number, const double (*own)[sheet_size]) const {
   return surface_kernels(sheet.instructions)
-      .blocked(walk_surfaces(Among::all, first_number), sheet, rays, {lambda_max, own == nullptr ? nullptr : *own});
+      .blocked(walk_surfaces(Among::all, first_number), sheet, rays,
+               {lambda_max, own == nullptr ? nullptr : *own});
 }
 
 void SurfaceSet::points(const RaySheet& sheet, int surface, int first, int last, const SheetHits& hits,
@@ -133,7 +135,8 @@ void SurfaceSet::points(const RaySheet& sheet, int surface, int first, int last,
   }
   double local[3][sheet_size];
   std::uint64_t left =
-      surface_kernels(sheet.instructions).points(placed.lanes, sheet, first, last, hits, points, with_texture_coordinates ? local : nullptr);
+      surface_kernels(sheet.instructions)
+          .points(placed.lanes, sheet, first, last, hits, points, with_texture_coordinates ? local : nullptr);
   for (int i = first; i < last && with_texture_coordinates; ++i) {
     LocalPoint point{.position = {local[0][i], local[1][i], local[2][i]}};
     texture(placed.shape, hits.part_of(i), point);

@@ -62,7 +62,8 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
 }
 
 Crossings crossings_of(const Shape& shape, const LocalLine& line, double lambda_min, Wanted wanted) {
-  return wanted == Wanted::all ? all_crossings(shape, line) : crossings_of_one(shape, line, lambda_min, wanted);
+  return wanted == Wanted::all ? all_crossings(shape, line)
+                               : crossings_of_one(shape, line, lambda_min, wanted);
 }
 
 void texture(const Shape& shape, int /*part*/, LocalPoint& point) {

@@ -31,7 +31,8 @@ class TorusLanes {
   }
 
   /// Up to four roots of the whole line, in order; not a number: there is none.
-  static BACKLIGHT_LANES void all_roots(const TorusQuestion& question, const LaneLine<V>& line, V (&roots)[4]) {
+  static BACKLIGHT_LANES void all_roots(const TorusQuestion& question, const LaneLine<V>& line,
+                                        V (&roots)[4]) {
     TorusLanes torus(question, line);
     const Mask meets = torus.clip();
     torus.find_cuts();
@@ -39,7 +40,8 @@ class TorusLanes {
     Mask inside = torus.size_ < V(0.0);  // nowhere
     for (int i = 0; i < 4; ++i) {
       const V at_end = torus.distance(ends[i + 1]).value;
-      const Mask inside_next = i < 3 ? (at_end <= V(0.0)) & (ends[i + 1] > torus.begin_) : ~(torus.size_ > V(0.0));
+      const Mask inside_next =
+          i < 3 ? (at_end <= V(0.0)) & (ends[i + 1] > torus.begin_) : ~(torus.size_ > V(0.0));
       const Mask found = meets & ((inside & ~inside_next) | (~inside & inside_next));
       torus.from_ = ends[i];
       torus.to_ = ends[i + 1];

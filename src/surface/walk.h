@@ -26,7 +26,8 @@ struct WalkSurfaces {
   double first_who;  ///< number of surface 0 among the hits
   // For surfaces without a closed form: as below for one surface, of the rays whose bits are set.
   const void* set;
-  bool (*nearest_of)(const void* set, int surface, std::uint64_t rays, const RaySheet&, double who, SheetHits&);
+  bool (*nearest_of)(const void* set, int surface, std::uint64_t rays, const RaySheet&, double who,
+                     SheetHits&);
   std::uint64_t (*blocked_by)(const void* set, int surface, std::uint64_t rays, const RaySheet&,
                               double lambda_max);
 };
@@ -45,8 +46,8 @@ class Walk {
   using V3 = LaneVec3<V>;
   using Mask = LaneMask<N>;
 
-  /// Updates the hits of the rays whose bits are set where a surface is nearer; of equal λ, the smaller number
-  /// counts.
+  /// Updates the hits of the rays whose bits are set where a surface is nearer; of equal λ, the smaller
+  /// number counts.
   static void nearest(const WalkSurfaces& s, const RaySheet& rays, std::uint64_t active, SheetHits& hits) {
     for (int i = 0; i < s.direct_count; ++i) nearest_of(s, s.direct[i], rays, active, hits);
     if (s.nodes != nullptr) descend(s, rays, active, hits);
@@ -63,8 +64,8 @@ class Walk {
     return active & ~open;
   }
 
-  /// The points of hits `first` to `last`, all on one surface that has a form; `local`, if not null: the same in
-  /// its local coordinates. Bits: those that are left to the law.
+  /// The points of hits `first` to `last`, all on one surface that has a form; `local`, if not null: the same
+  /// in its local coordinates. Bits: those that are left to the law.
   static std::uint64_t points(const LaneSurface& surface, const RaySheet& rays, int first, int last,
                               const SheetHits& hits, SheetPoints& out, double (*local)[sheet_size]) {
     std::uint64_t left = 0;
@@ -129,7 +130,8 @@ class Walk {
       for (int i = 0; i < rays.padded; i += N) {
         const unsigned lanes = lanes_of(active, i);
         if (lanes == 0) continue;
-        most = larger(most, pick(lanes, V::load(lambda + i) * (sign * V::load(rays.direction[axis_[0]] + i)), most));
+        most = larger(
+            most, pick(lanes, V::load(lambda + i) * (sign * V::load(rays.direction[axis_[0]] + i)), most));
       }
       far = most_of(most) * (1.0 + 1e-14) + reach_room_;
     }
@@ -183,13 +185,14 @@ class Walk {
         }
         const double low = least_of(least[0]), high = most_of(most[0]);
         starts.set(k, low, high, 0.0);
-        ends.set(k, least_of(least[1]), most_of(most[1]), (low < 0.0 ? -low : low) + (high < 0.0 ? -high : high));
+        ends.set(k, least_of(least[1]), most_of(most[1]),
+                 (low < 0.0 ? -low : low) + (high < 0.0 ? -high : high));
       }
     }
 
     /// `way`: 1, or -1 for rays backwards.
-    bool make(const Box& origins, double way, const RaySheet& rays, std::uint64_t active, const double* lambda,
-              double lambda_max) {
+    bool make(const Box& origins, double way, const RaySheet& rays, std::uint64_t active,
+              const double* lambda, double lambda_max) {
       const int first = __builtin_ctzll(active);
       double size[3];
       for (int k = 0; k < 3; ++k) {
@@ -231,7 +234,8 @@ class Walk {
     // Whether boxes reach between the slopes somewhere from `from` to `end` along the axis.
     BACKLIGHT_LANES Mask between(const WideNode& node, int axis, const double (&slope)[2], V from, V end,
                                  int k) const {
-      const V lo = V::load(node.lo[axis] + k) - V(high_[axis]), hi = V::load(node.hi[axis] + k) - V(low_[axis]);
+      const V lo = V::load(node.lo[axis] + k) - V(high_[axis]),
+              hi = V::load(node.hi[axis] + k) - V(low_[axis]);
       const V lowest = V(slope[0]) * (slope[0] >= 0.0 ? from : end);
       const V highest = V(slope[1]) * (slope[1] >= 0.0 ? end : from);
       return (hi >= lowest) & (lo <= highest);
@@ -272,8 +276,9 @@ class Walk {
       const V3 o = load3<V>(rays.origin, i) - V3(surface_.centre);
       const V square = dot(o, o), along = dot(o, d), square_length = dot(d, d);
       const V reach = (V(surface_.radius) + V(4e-15) * largest_coordinate(o)) * size * V(1.0 + 1e-11);
-      return bits((square * square_length - along * along <= reach * reach + V(1e-14) * square * square_length) &
-                  (along <= reach) & (-along <= V(lambda_max_) * square_length + reach));
+      return bits(
+          (square * square_length - along * along <= reach * reach + V(1e-14) * square * square_length) &
+          (along <= reach) & (-along <= V(lambda_max_) * square_length + reach));
     }
 
     /// Of the given ones.
@@ -294,7 +299,8 @@ class Walk {
     double level_;
   };
 
-  /// Calls work(child, near) for the surfaces that the pyramid meets, near ones first; it returns true to stop.
+  /// Calls work(child, near) for the surfaces that the pyramid meets, near ones first; it returns true to
+  /// stop.
   template <class Work>
   static BACKLIGHT_LANES void visit(const WideNode* nodes, const Pyramid& pyramid, const Work& work) {
     struct Pending {
@@ -409,8 +415,8 @@ class Walk {
       if (open == 0 || (open & sight.lanes(rays, i)) == 0) continue;
       const First first = first_crossing<Form>(surface, {origin_of(rays, i), load3<V>(rays.direction, i)});
       const V before = V::load(hits.lambda + i), whose = V::load(hits.who + i);
-      const Mask nearer = (first.lambda > V(0.0)) &
-                          ((first.lambda < before) | ((first.lambda == before) & (V(who) < whose)));
+      const Mask nearer =
+          (first.lambda > V(0.0)) & ((first.lambda < before) | ((first.lambda == before) & (V(who) < whose)));
       if (bits(nearer) == 0) continue;
       any = true;
       select(nearer, first.lambda, before).store(hits.lambda + i);
@@ -421,8 +427,8 @@ class Walk {
     return any;
   }
 
-  static std::uint64_t blocked_by(const WalkSurfaces& s, int index, const RaySheet& rays, std::uint64_t active,
-                                  const ShadowQuestion& question) {
+  static std::uint64_t blocked_by(const WalkSurfaces& s, int index, const RaySheet& rays,
+                                  std::uint64_t active, const ShadowQuestion& question) {
     const LaneSurface& surface = s.surfaces[index].lanes;
     if (!surface.casts_shadow) return 0;
     const double who = s.first_who + index;
@@ -445,7 +451,8 @@ class Walk {
       unsigned open = lanes_of(active, i);
       if (open != 0 && question.own != nullptr) open &= ~bits(V::load(question.own + i) == V(who));
       if (open == 0 || (open & sight.lanes(rays, i)) == 0) continue;
-      const V lambda = first_crossing<Form>(surface, {origin_of(rays, i), load3<V>(rays.direction, i)}).lambda;
+      const V lambda =
+          first_crossing<Form>(surface, {origin_of(rays, i), load3<V>(rays.direction, i)}).lambda;
       const unsigned met = bits((lambda > V(0.0)) & (lambda < V(question.lambda_max)));
       all |= static_cast<std::uint64_t>(met & open) << i;
     }
@@ -469,7 +476,8 @@ class Walk {
         (last < 64 ? (std::uint64_t{1} << last) - 1 : ~std::uint64_t{0}) & (~std::uint64_t{0} << first);
     for (int i = first / N * N; i < last; i += N) {
       const unsigned lanes = lanes_of(wanted, i);
-      const LaneLine<V> line = lane_line(surface, LaneRay<V>{origin_of(rays, i), load3<V>(rays.direction, i)});
+      const LaneLine<V> line =
+          lane_line(surface, LaneRay<V>{origin_of(rays, i), load3<V>(rays.direction, i)});
       V along = V::load(hits.along + i);
       if constexpr (is_plane<Form>) {
         along = -line.point.y / line.direction.y;

@@ -99,8 +99,9 @@ struct LampTable {
   double* who = nullptr;   ///< an index, exact as a double
 
   std::array<double**, 12> columns() {
-    return {&celerity[0], &celerity[1], &celerity[2], &place[0], &place[1], &place[2],
-            &gamma,       &inverse_gamma_plus_one, &speed, &radius, &core, &who};
+    return {&celerity[0], &celerity[1], &celerity[2], &place[0],
+            &place[1],    &place[2],    &gamma,       &inverse_gamma_plus_one,
+            &speed,       &radius,      &core,        &who};
   }
 };
 

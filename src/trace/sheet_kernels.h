@@ -377,8 +377,7 @@ struct KernelsOf {
       const V3 normal = load3<V>(p.points.normal, i);
       const Mask outside = dot(normal, to_camera) >= V(0.0);
       const V3 seen = select(outside, normal, -normal);
-      const V time =
-          V(p.rays.start_time[0]) + V::load(p.hits->lambda + i) * V::load(p.rays.time_rate + i);
+      const V time = V(p.rays.start_time[0]) + V::load(p.hits->lambda + i) * V::load(p.rays.time_rate + i);
       store3(seen, p.points.normal, i);
       store3(to_camera, p.to_camera, i);
       store3(load3<V>(p.points.position, i) + V::load(p.points.error_bound + i) * seen, p.shadow.origin, i);

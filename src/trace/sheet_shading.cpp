@@ -1,4 +1,4 @@
-// Longer than 400 lines: the steps of one sheet's light, in the order in which they are taken.
+// The light of one sheet of points, step by step.
 #include "sheet_shading.h"
 
 #include <algorithm>
@@ -145,9 +145,10 @@ void SheetShader::fill_diffuse(std::size_t light, int index, LaneReflection& ref
     return;
   }
   for (int i = 0; i < p.count; ++i) {
-    const LinearRgb rgb = material.texture
-                              ? colours.under(light, texture_reflectance(material, p.points.u[i], p.points.v[i]))
-                              : colours.under(light, index, checker_slot(*material.checker, p.points.u[i], p.points.v[i]));
+    const LinearRgb rgb =
+        material.texture
+            ? colours.under(light, texture_reflectance(material, p.points.u[i], p.points.v[i]))
+            : colours.under(light, index, checker_slot(*material.checker, p.points.u[i], p.points.v[i]));
     put(rgb, p.diffuse, i);
   }
   for (int i = p.count; i < p.padded; ++i) put(LinearRgb{0.0}, p.diffuse, i);

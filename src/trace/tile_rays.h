@@ -1,4 +1,4 @@
-// The rays of a tile, as sheets, before they meet anything.
+// The rays of a tile, as sheets, and what they meet first.
 #pragma once
 
 #include <span>
@@ -18,5 +18,14 @@ void make_rays(const Scene& scene, const SheetKernels& kernels, std::span<const 
 
 /// A bundle around those of all sheets.
 Bundle around(std::span<const SheetScratch::TileSheet> sheets);
+
+/// `who` of a ray whose hit is in work.far_hits.
+inline constexpr double far_hit = -2.0;
+
+/// The nearest hits of work.sheets, over all frames.
+void find_hits(const Tracer& tracer, const SheetScene& scene, int eye, SheetScratch& work, Scratch& scratch);
+
+/// One of a sheet's rays.
+CameraRay camera_ray_of(const Scene& scene, const SheetRays& rays, int lane, int eye);
 
 }  // namespace backlight

@@ -119,8 +119,8 @@ void SheetShader::try_entry(std::size_t light, int index, std::uint64_t candidat
   const RaySheet* rays = &p.shadow;
   std::uint64_t open = candidates & p.lit_bits();
   if (&entry != entry_) {
-    open = sheets_.kernels().cast(sheets_.eye(eye_).frames[at], sheets_.lamp(light).to_frame[at], candidates, p,
-                                  work_.rays);
+    open = sheets_.kernels().cast(sheets_.eye(eye_).frames[at], sheets_.lamp(light).to_frame[at], candidates,
+                                  p, work_.rays);
     rays = &work_.rays;
   }
   if (open == 0) return;

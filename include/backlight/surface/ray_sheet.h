@@ -12,7 +12,8 @@ inline constexpr int sheet_size = 64;  ///< rays: of 8x8 pixels
 
 /// Rays x(λ) = origin + λ direction, and the frame's time along them, start_time + λ time_rate.
 struct RaySheet {
-  /// How many there are, rounded up to whole registers of any width; the spare ones do what the last one does.
+  /// How many there are, rounded up to whole registers of any width; the spare ones do what the last one
+  /// does.
   int padded = 0;
   /// Whether the first one's origin and start_time are those of all.
   bool one_origin = false;
@@ -37,7 +38,9 @@ struct SheetHits {
       who[i] = -1.0;
     }
   }
-  [[nodiscard]] int part_of(int ray) const { return static_cast<int>(part[ray] < 0.0 ? -1.0 - part[ray] : part[ray]); }
+  [[nodiscard]] int part_of(int ray) const {
+    return static_cast<int>(part[ray] < 0.0 ? -1.0 - part[ray] : part[ray]);
+  }
   [[nodiscard]] bool is_unresolved(int ray) const { return part[ray] < 0.0; }
 };
 

@@ -149,7 +149,8 @@ class SurfaceSet {
  private:
   [[nodiscard]] WalkSurfaces walk_surfaces(Among among, double first_number) const;
   [[nodiscard]] const PlacedSurface& at(int surface) const;
-  [[nodiscard]] BoundingSphere around(const std::vector<AxisBox>& boxes, const std::vector<int>& bounded) const;
+  [[nodiscard]] BoundingSphere around(const std::vector<AxisBox>& boxes,
+                                      const std::vector<int>& bounded) const;
 
   std::vector<PlacedSurface> surfaces_;
   std::vector<WideNode> nodes_;  ///< over those that have bounds, but for a lone one

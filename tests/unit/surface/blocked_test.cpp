@@ -88,7 +88,8 @@ void expect_what_the_first_crossing_says(const Shape& shape) {
   for (const double end : {1.0, 5.0, std::numeric_limits<double>::infinity()}) {
     const std::uint64_t together = set.blocked(rays.sheet(), ~std::uint64_t{0}, end);
     for (std::size_t i = 0; i < sheet_size; ++i) {
-      EXPECT_EQ((together >> i) & 1U, set.blocked(rays.from(i), rays.along(i), end) ? 1U : 0U) << i << " " << end;
+      EXPECT_EQ((together >> i) & 1U, set.blocked(rays.from(i), rays.along(i), end) ? 1U : 0U)
+          << i << " " << end;
     }
   }
 }

@@ -291,7 +291,9 @@ struct Rays {
       sheet.start_time[i] = sheet.time_rate[i] = 0.0;
     }
   }
-  [[nodiscard]] Vec3 origin(int i) const { return {sheet.origin[0][i], sheet.origin[1][i], sheet.origin[2][i]}; }
+  [[nodiscard]] Vec3 origin(int i) const {
+    return {sheet.origin[0][i], sheet.origin[1][i], sheet.origin[2][i]};
+  }
   [[nodiscard]] Vec3 direction(int i) const {
     return {sheet.direction[0][i], sheet.direction[1][i], sheet.direction[2][i]};
   }

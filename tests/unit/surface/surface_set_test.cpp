@@ -76,7 +76,8 @@ struct Twins {
   bool agree(const Vec3& origin, const Vec3& direction, double limit) const {
     const Hit one = set.nearest(origin, direction, limit, {}, Search::every_surface);
     expect_same(one, set.nearest(origin, direction, limit, {}, Search::tree));
-    for (const InstructionSet width : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::widest}) {
+    for (const InstructionSet width :
+         {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::widest}) {
       for (const bool one_origin : {true, false}) {
         RaySheet sheet = sheet_of(origin, direction, width, one_origin);
         SheetHits hits;
@@ -239,8 +240,7 @@ TEST(SurfaceSet, ShadowRaysDoNotMeetTheirOwnStart) {
     const Vec3 tangent = away - glm::dot(away, point.normal) * point.normal;
     away = kind == 4 ? point.normal : glm::normalize(tangent) + tilt * point.normal;
     const double limit = kind == 4 ? 0.01 : infinity;
-    EXPECT_FALSE(set.blocked(start, away, limit))
-        << "kind " << kind << ", ray " << i << ", tilt " << tilt;
+    EXPECT_FALSE(set.blocked(start, away, limit)) << "kind " << kind << ", ray " << i << ", tilt " << tilt;
     EXPECT_LT(point.error_bound, 1e-9 * (1.0 + glm::length(point.position)));
     ++starts;
   }
