@@ -32,16 +32,8 @@ void texture(const Shape& shape, int part, LocalPoint& point) {
 
 }  // namespace
 
-const ShapeMethods box_methods{.kind = ShapeKind::box,
-                               .name = "box",
-                               .encloses = true,
-                               .is_convex = true,
-                               .problem = problem_of,
-                               .bounding_radius = bounding_radius,
-                               .half_extent = half_extent,
-                               .crossings = crossings_by<BoxForm>,
-                               .point = point_by<BoxForm, texture>,
-                               .texture = texture};
+const ShapeMethods box_methods =
+    form_methods<BoxForm, texture>(ShapeKind::box, "box", problem_of, bounding_radius, half_extent);
 
 Shape box(Vec3 size) {
   return {ShapeKind::box, {size.x, size.y, size.z}, {}, {}, {}};

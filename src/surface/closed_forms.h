@@ -12,6 +12,11 @@
 
 namespace backlight {
 
+/// What is true of most; of a form that says nothing else.
+struct ClosedForm {
+  static constexpr bool encloses = true, is_convex = true, is_flat = false;  ///< ShapeMethods
+};
+
 /// Up to two crossings of a line, in order, and the faces; not a number: there is none. (As Crossings.)
 template <class V>
 struct LaneCrossings {
@@ -77,7 +82,7 @@ struct QuadraticRoots {
   }
 };
 
-struct SphereForm {
+struct SphereForm : ClosedForm {
   static constexpr bool unit_gradient = true;
 
   // Pythagoras on the perpendicular: no difference of squares of the distance to the viewer.
@@ -93,7 +98,7 @@ struct SphereForm {
   }
 };
 
-struct BoxForm {
+struct BoxForm : ClosedForm {
   static constexpr bool unit_gradient = true;
 
   template <class V>
@@ -124,7 +129,7 @@ struct BoxForm {
 
 /// Cylinders and cones: radius at the bottom, at the top, and the height.
 template <bool is_cylinder>
-struct FrustumForm {
+struct FrustumForm : ClosedForm {
   static constexpr bool unit_gradient = false;
 
   template <class V>
@@ -197,8 +202,8 @@ struct FrustumForm {
 
 /// y = 0: a disk, or all of a plane.
 template <bool is_disk>
-struct FlatForm {
-  static constexpr bool unit_gradient = true;
+struct FlatForm : ClosedForm {
+  static constexpr bool unit_gradient = true, encloses = !is_disk, is_flat = true;
 
   template <class V>
   static BACKLIGHT_LANES LaneCrossings<V> crossings(const double* values, const LaneLine<V>& line) {
@@ -235,8 +240,8 @@ BACKLIGHT_LANES V plane_lambda(const LaneSurface& surface, const LaneRay<V>& ray
   return only(magnitude(rate) > noise, -dot(up, ray.origin - LaneVec3<V>(surface.centre)) / rate);
 }
 
-struct QuadricForm {
-  static constexpr bool unit_gradient = false;
+struct QuadricForm : ClosedForm {
+  static constexpr bool unit_gradient = false, is_convex = false;
   static constexpr double epsilon = 0x1p-52;
 
   /// f(p + t d) = a t² + 2 b t + c.

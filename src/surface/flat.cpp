@@ -36,28 +36,10 @@ void disk_texture(const Shape& shape, int /*part*/, LocalPoint& point) {
 
 }  // namespace
 
-const ShapeMethods disk_methods{.kind = ShapeKind::disk,
-                                .name = "disk",
-                                .encloses = false,
-                                .is_convex = true,
-                                .is_flat = true,
-                                .problem = disk_problem,
-                                .bounding_radius = disk_radius,
-                                .half_extent = disk_extent,
-                                .crossings = crossings_by<FlatForm<true>>,
-                                .point = point_by<FlatForm<true>, disk_texture>,
-                                .texture = disk_texture};
-const ShapeMethods plane_methods{.kind = ShapeKind::plane,
-                                 .name = "plane",
-                                 .encloses = true,
-                                 .is_convex = true,
-                                 .is_flat = true,
-                                 .problem = plane_problem,
-                                 .bounding_radius = no_radius,
-                                 .half_extent = no_extent,
-                                 .crossings = crossings_by<FlatForm<false>>,
-                                 .point = point_by<FlatForm<false>, texture_of_place>,
-                                 .texture = texture_of_place};
+const ShapeMethods disk_methods = form_methods<FlatForm<true>, disk_texture>(
+    ShapeKind::disk, "disk", disk_problem, disk_radius, disk_extent);
+const ShapeMethods plane_methods = form_methods<FlatForm<false>, texture_of_place>(
+    ShapeKind::plane, "plane", plane_problem, no_radius, no_extent);
 
 Shape disk(double radius) {
   return {ShapeKind::disk, {radius}, {}, {}, {}};

@@ -60,25 +60,12 @@ void texture(const Shape& shape, int part, LocalPoint& point) {
   }
 }
 
-template <class Form>
-ShapeMethods frustum_methods(ShapeKind kind, const char* name, std::string (*problem)(const Shape&)) {
-  return {.kind = kind,
-          .name = name,
-          .encloses = true,
-          .is_convex = true,
-          .problem = problem,
-          .bounding_radius = bounding_radius,
-          .half_extent = half_extent,
-          .crossings = crossings_by<Form>,
-          .point = point_by<Form, texture>,
-          .texture = texture};
-}
-
 }  // namespace
 
-const ShapeMethods cylinder_methods =
-    frustum_methods<FrustumForm<true>>(ShapeKind::cylinder, "cylinder", cylinder_problem);
-const ShapeMethods cone_methods = frustum_methods<FrustumForm<false>>(ShapeKind::cone, "cone", cone_problem);
+const ShapeMethods cylinder_methods = form_methods<FrustumForm<true>, texture>(
+    ShapeKind::cylinder, "cylinder", cylinder_problem, bounding_radius, half_extent);
+const ShapeMethods cone_methods = form_methods<FrustumForm<false>, texture>(
+    ShapeKind::cone, "cone", cone_problem, bounding_radius, half_extent);
 
 Shape cylinder(double radius, double height) {
   return {ShapeKind::cylinder, {radius, height}, {}, {}, {}};

@@ -32,4 +32,22 @@ LocalPoint point_by(const Shape& shape, const LocalLine& line, const Crossing& c
   return point;
 }
 
+/// The row of a shape with a closed form.
+template <class Form, void (*texture)(const Shape&, int part, LocalPoint&)>
+constexpr ShapeMethods form_methods(ShapeKind kind, const char* name, std::string (*problem)(const Shape&),
+                                    double (*bounding_radius)(const Shape&, const Vec3&),
+                                    double (*half_extent)(const Shape&, const Extent&)) {
+  return {.kind = kind,
+          .name = name,
+          .encloses = Form::encloses,
+          .is_convex = Form::is_convex,
+          .is_flat = Form::is_flat,
+          .problem = problem,
+          .bounding_radius = bounding_radius,
+          .half_extent = half_extent,
+          .crossings = crossings_by<Form>,
+          .point = point_by<Form, texture>,
+          .texture = texture};
+}
+
 }  // namespace backlight

@@ -141,15 +141,8 @@ double half_extent(const Shape& shape, const Extent& e) {
 
 }  // namespace
 
-const ShapeMethods quadric_methods{.kind = ShapeKind::quadric,
-                                   .name = "quadric",
-                                   .encloses = true,
-                                   .problem = problem_of,
-                                   .bounding_radius = bounding_radius,
-                                   .half_extent = half_extent,
-                                   .crossings = crossings_by<QuadricForm>,
-                                   .point = point_by<QuadricForm, texture_of_place>,
-                                   .texture = texture_of_place};
+const ShapeMethods quadric_methods = form_methods<QuadricForm, texture_of_place>(
+    ShapeKind::quadric, "quadric", problem_of, bounding_radius, half_extent);
 
 Shape quadric(const std::array<double, 10>& coefficients) {
   return {ShapeKind::quadric, coefficients, {}, {}, {}};

@@ -26,16 +26,8 @@ void texture(const Shape& /*shape*/, int /*part*/, LocalPoint& point) {
 
 }  // namespace
 
-const ShapeMethods sphere_methods{.kind = ShapeKind::sphere,
-                                  .name = "sphere",
-                                  .encloses = true,
-                                  .is_convex = true,
-                                  .problem = problem_of,
-                                  .bounding_radius = bounding_radius,
-                                  .half_extent = half_extent,
-                                  .crossings = crossings_by<SphereForm>,
-                                  .point = point_by<SphereForm, texture>,
-                                  .texture = texture};
+const ShapeMethods sphere_methods =
+    form_methods<SphereForm, texture>(ShapeKind::sphere, "sphere", problem_of, bounding_radius, half_extent);
 
 Shape sphere(double radius) {
   return {ShapeKind::sphere, {radius}, {}, {}, {}};
