@@ -1,11 +1,6 @@
 #include "backlight/colour/light_rows.h"
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 #include <algorithm>
-#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -13,6 +8,7 @@
 #include "backlight/colour/spectrum.h"
 #include "light_samples.h"
 #include "planck.h"
+#include "room.h"
 #include "spline_weights.h"
 
 namespace backlight {
@@ -30,18 +26,6 @@ T hermite(const T& low, const T& low_slope, const T& high, const T& high_slope, 
   const double u = 1.0 - t;
   return u * u * (1.0 + 2.0 * t) * low + t * t * (3.0 - 2.0 * t) * high +
          t * u * (u * low_slope - t * high_slope);
-}
-
-// Takes the room from the system at once, where it can: page by page, each when it is first written to, would
-// cost more than what is to stand in it.
-template <class T>
-void take([[maybe_unused]] std::span<T> room) {
-#if defined(MADV_POPULATE_WRITE)
-  constexpr std::size_t page = 4096;
-  char* const begin = reinterpret_cast<char*>(room.data());
-  const std::size_t before = reinterpret_cast<std::uintptr_t>(begin) % page;
-  static_cast<void>(madvise(begin - before, before + room.size_bytes(), MADV_POPULATE_WRITE));
-#endif
 }
 
 // Between which two of a table.
@@ -189,8 +173,8 @@ LightRows::Weights LightRows::weights_of(Family family, std::size_t index) const
       const std::size_t count = std::min(together, shelf.there.size() - begin);
       if (std::ranges::none_of(std::span(shelf.there).subspan(begin, count),
                                [](const auto& one) { return one.load(std::memory_order_relaxed); })) {
-        take(std::span(&shelf.weights[begin * 3 * n], count * 3 * n));
-        take(std::span(&shelf.left_out[begin * left_out_count], count * left_out_count));
+        take_room(std::span(&shelf.weights[begin * 3 * n], count * 3 * n));
+        take_room(std::span(&shelf.left_out[begin * left_out_count], count * left_out_count));
       }
       for (std::size_t c = 0; c < 3; ++c) std::copy_n(own.of[c], n, first + c * n);
       std::copy_n(own.left_out, left_out_count, left_out);

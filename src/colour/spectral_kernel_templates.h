@@ -68,6 +68,17 @@ BACKLIGHT_LANES LanePairs<N> load_pairs(const double (*table)[2], const long lon
 }
 
 template <int N>
+struct FloatRegister;
+template <>
+struct FloatRegister<2> {
+  using Vec = float __attribute__((vector_size(8)));
+};
+template <>
+struct FloatRegister<4> {
+  using Vec = float __attribute__((vector_size(16)));
+};
+
+template <int N>
 struct SpectralKernelsOf {
   using V = Lanes<N>;
   using Mask = LaneMask<N>;
@@ -266,6 +277,16 @@ struct SpectralKernelsOf {
     BACKLIGHT_LANES void store(double* to) const {
       for (int i = 0; i < 4 / width; ++i) of[i].store(to + i * width);
     }
+    /// Three of them.
+    BACKLIGHT_LANES void store_rounded(float* to) const {
+      using Floats = typename FloatRegister<width>::Vec;
+      float all[4];
+      for (int i = 0; i < 4 / width; ++i) {
+        const Floats rounded = __builtin_convertvector(of[i].v, Floats);
+        __builtin_memcpy(all + i * width, &rounded, sizeof rounded);
+      }
+      __builtin_memcpy(to, all, 3 * sizeof(float));
+    }
     friend BACKLIGHT_LANES Channels operator+(const Channels& a, const Channels& b) {
       Channels r;
       for (int i = 0; i < 4 / width; ++i) r.of[i] = a.of[i] + b.of[i];
@@ -345,9 +366,7 @@ struct SpectralKernelsOf {
         sum = sum - w;
         moment = moment - f.nm[node - 1] * w;
       }
-      double off[4];
-      (moment - k * sum).store(off);
-      for (int c = 0; c < 3; ++c) left_out[3 * i + c] = static_cast<float>(off[c]);
+      (moment - k * sum).store_rounded(left_out + 3 * i);
       const Channels here = light[i] * Channels::load(f.film_weights[i]);
       sum = sum + here;
       moment = moment + k * here;

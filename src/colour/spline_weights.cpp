@@ -6,6 +6,7 @@
 namespace backlight {
 
 SplineWeights::SplineWeights(std::vector<double> nm) : nm_(std::move(nm)), nodes_(nm_.size()) {
+  samples_.reserve(cie::sample_count);
   std::size_t cell = 0;
   for (std::size_t i = 0; i < cie::sample_count; ++i) {
     const double at = cie::first_nm + static_cast<double>(i);
