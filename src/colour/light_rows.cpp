@@ -1,6 +1,8 @@
 #include "backlight/colour/light_rows.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -26,6 +28,15 @@ T hermite(const T& low, const T& low_slope, const T& high, const T& high_slope, 
   const double u = 1.0 - t;
   return u * u * (1.0 + 2.0 * t) * low + t * t * (3.0 - 2.0 * t) * high +
          t * u * (u * low_slope - t * high_slope);
+}
+
+// The first 16 bits of a float, rounded, and what they say.
+std::uint16_t half(float number) {
+  return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(number) + 0x8000U) >> 16);
+}
+
+float whole(std::uint16_t half) {
+  return std::bit_cast<float>(std::uint32_t{half} << 16);
 }
 
 // Between which two of a table.
@@ -59,8 +70,9 @@ LinearRgb LightRows::Weighting::left_out(double nm) const {
       std::min(static_cast<std::size_t>(nm - cie::first_nm), std::size_t{cie::sample_count - 2});
   const double along = nm - (cie::first_nm + static_cast<double>(cell));
   const auto interpolated = [&](const Weights& row) {
-    const float* at = row.left_out + 3 * cell;
-    const LinearRgb before{at[0], at[1], at[2]}, after{at[3], at[4], at[5]};
+    const std::uint16_t* const at = row.left_out + 3 * cell;
+    const LinearRgb before{whole(at[0]), whole(at[1]), whole(at[2])};
+    const LinearRgb after{whole(at[3]), whole(at[4]), whole(at[5])};
     return before + along * (after - before);
   };
   LinearRgb sum{0.0};
@@ -81,7 +93,7 @@ LinearRgb LightRows::Weighting::left_out(double nm) const {
 LightRows::Shelf::Shelf(std::size_t rows, std::size_t wavelengths)
     : there(rows),
       weights(std::make_unique_for_overwrite<double[]>(rows * 3 * wavelengths)),
-      left_out(std::make_unique_for_overwrite<float[]>(rows * left_out_count)) {}
+      left_out(std::make_unique_for_overwrite<std::uint16_t[]>(rows * left_out_count)) {}
 
 LightRows::LightRows(std::vector<double> nm)
     : nm_(std::move(nm)),
@@ -159,7 +171,7 @@ LightRows::Weights LightRows::weights_of(Family family, std::size_t index) const
   Shelf& shelf = family == Family::daylight ? daylight_ : bodies_;
   const std::size_t n = nm_.size();
   double* const first = &shelf.weights[index * 3 * n];
-  float* const left_out = &shelf.left_out[index * left_out_count];
+  std::uint16_t* const left_out = &shelf.left_out[index * left_out_count];
   if (!shelf.there[index].load(std::memory_order_acquire)) {
     // Two threads may make the same: the one that comes first puts it there.
     const Weights own = make_weights(family == Family::daylight ? daylight_at(shifts.at(index))
@@ -191,11 +203,13 @@ LightRows::Weights LightRows::of_white() const {
 // Good until the next are made in the same thread.
 LightRows::Weights LightRows::make_weights(const ObserverSamples& light) const {
   static thread_local std::vector<double> weights;
-  static thread_local std::vector<float> left_out(left_out_count);
+  static thread_local std::vector<float> floats(left_out_count);
+  static thread_local std::vector<std::uint16_t> left_out(left_out_count);
   const std::size_t n = nm_.size();
   if (weights.size() < 3 * n) weights.resize(3 * n);
   double* const of[3] = {weights.data(), weights.data() + n, weights.data() + 2 * n};
-  spline_->fill(light, of, left_out.data());
+  spline_->fill(light, of, floats.data());
+  std::ranges::transform(floats, left_out.begin(), half);
   return {{of[0], of[1], of[2]}, left_out.data()};
 }
 
