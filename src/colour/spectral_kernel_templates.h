@@ -328,11 +328,11 @@ struct SpectralKernelsOf {
 
   /// Curvatures are linear in the values: their part goes back to these by the transposed equations.
   static BACKLIGHT_LANES void add_curvatures(const SplineForm& f, double* curvature, double* value) {
-    Channels last = Channels::none();
+    Channels reduced = Channels::none();
     for (int i = 1; i + 1 < f.count; ++i) {
       const SplineForm::Node& node = f.nodes[i];
-      last = node.pivot * Channels::load(curvature + 4 * i) - node.lower * last;
-      last.store(curvature + 4 * i);
+      reduced = node.pivot * Channels::load(curvature + 4 * i) - node.lower * reduced;
+      reduced.store(curvature + 4 * i);
     }
     Channels above = Channels::none(), bend_above = Channels::none();
     for (int i = f.count - 1; i > 0; --i) {
