@@ -2,127 +2,25 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "backlight/base/lane_exponential.h"
-#include "backlight/base/lane_power.h"
 #include "backlight/colour/spectrum.h"
+#include "light_samples.h"
 #include "planck.h"
+#include "room.h"
 #include "spline_weights.h"
 
 namespace backlight {
 namespace {
-
-// Numbers from `least` (of a row) up to `end`. The first bits of a number's fraction, and its exponent, say
-// which row is at or below it.
-struct Range {
-  double least;
-  double end;
-  int bits_below_row;
-
-  [[nodiscard]] constexpr std::uint64_t row_bits(double x) const {
-    return std::bit_cast<std::uint64_t>(x) >> bits_below_row;
-  }
-  [[nodiscard]] constexpr bool has(double x) const { return x >= least && x < end; }
-  [[nodiscard]] constexpr std::size_t rows() const { return row_bits(end) - row_bits(least) + 1; }
-  [[nodiscard]] constexpr std::size_t index(double x) const { return row_bits(x) - row_bits(least); }
-  [[nodiscard]] double at(std::size_t index) const {
-    return std::bit_cast<double>((row_bits(least) + index) << bits_below_row);
-  }
-};
-
-// Shifts at which any of D65's table is in the visible range; beyond both ends it is a blackbody there.
-constexpr Range shifts{111.0 / 256.0, 592.0 / 256.0, 45};
-static_assert(shifts.least * cie::last_nm <= cie::first_nm && shifts.end * cie::first_nm >= cie::last_nm);
-
-// Temperatures times shifts, in K. Beyond, a row and its weights are made for each place.
-constexpr Range temperatures{64.0, 4194304.0, 44};
-
-// Those of weights: visible light of hot bodies changes little with the temperature, and less with more.
-constexpr Range cold{temperatures.least, 8192.0, 46};
-constexpr Range hot{cold.end, temperatures.end, 48};
-
-constexpr bool is_hot(double kelvin) {
-  return kelvin >= hot.least;
-}
 
 // Greater powers of e would leave no room for what a strength, a distance and D make of them.
 constexpr double greatest_log = 600.0;
 
 double exponential_of(double x) {
   return exponential(Lanes<2>(x)).value().v[0];
-}
-
-double logarithm_of(double x) {
-  return 0.69314718055994530942 * log2_of_positive(Lanes<2>(x)).v[0];
-}
-
-LinearRgb weighted_sum(const ObserverSamples& light, const WeightLanes& weights) {
-  Lanes<2> red_green = 0.0, blue = 0.0;
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    red_green = red_green + Lanes<2>(light[i]) * Lanes<2>::load(weights.of[i]);
-    blue = blue + Lanes<2>(light[i]) * Lanes<2>::load(weights.of[i] + 2);
-  }
-  return {red_green.v[0], red_green.v[1], blue.v[0]};
-}
-
-LinearRgb sum_over_film(const ObserverSamples& light) {
-  return weighted_sum(light, film_weight_lanes);
-}
-
-ObserverSamples samples_of(const Spectrum& light, double shift) {
-  ObserverSamples nm, values;
-  for (std::size_t i = 0; i < nm.size(); ++i) nm[i] = shift * (cie::first_nm + static_cast<double>(i));
-  light.evaluate(nm.data(), cie::sample_count, values.data());
-  return values;
-}
-
-// Each nanometre of D65's own goes to the two of the observer's samples next to where it arrives, in shares
-// by its distance. At rest that is D65 itself. Its table has a joint every 5 nm; read at the observer's
-// samples their shifted places would make a sum that trembles with the shift, by 1e-4.
-ObserverSamples daylight_at(double shift) {
-  constexpr double before = cie::first_nm - 1.0, after = cie::last_nm + 1.0;
-  static const std::vector<double> own = [] {
-    std::vector<double> nm(static_cast<std::size_t>(shifts.end * after) + 1), values(nm.size());
-    for (std::size_t i = 0; i < nm.size(); ++i) nm[i] = std::max(1.0, static_cast<double>(i));
-    Spectrum::d65().evaluate(nm.data(), static_cast<int>(nm.size()), values.data());
-    return values;
-  }();
-  const double per_nm = 1.0 / shift;
-  double shared[cie::sample_count + 3]{};  // from 359 nm on
-  const auto end = static_cast<std::size_t>(shift * after);
-  for (auto i = static_cast<std::size_t>(std::ceil(shift * before)); i <= end; ++i) {
-    const double place = static_cast<double>(i) * per_nm - before;
-    const auto sample = static_cast<std::size_t>(place);
-    const double further = place - static_cast<double>(sample);
-    const double light = per_nm * own[i];
-    shared[sample] += (1.0 - further) * light;
-    shared[sample + 1] += further * light;
-  }
-  ObserverSamples values;
-  std::copy_n(shared + 1, values.size(), values.begin());
-  return values;
-}
-
-// (λ w)' by the neighbours.
-constexpr WeightLanes make_moment_slopes() {
-  WeightLanes slopes;
-  for (std::size_t i = 1; i + 1 < cie::sample_count; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double nm = cie::first_nm + static_cast<double>(i);
-      slopes.of[i][c] =
-          0.5 * ((nm + 1.0) * rec709::film_weights[i + 1][c] - (nm - 1.0) * rec709::film_weights[i - 1][c]);
-    }
-  }
-  return slopes;
-}
-
-// d/ds Σ w(λ) S(sλ) = -1/s Σ (λ w)' S(sλ), whatever teeth S has.
-LinearRgb film_slope(const ObserverSamples& light, double shift) {
-  static constexpr WeightLanes moment_slopes = make_moment_slopes();
-  return weighted_sum(light, moment_slopes) * (-1.0 / shift);
 }
 
 template <class T>
@@ -132,71 +30,21 @@ T hermite(const T& low, const T& low_slope, const T& high, const T& high_slope, 
          t * u * (u * low_slope - t * high_slope);
 }
 
-// Two threads may make the same; the one that comes second takes the first's.
-template <class T, class Make>
-const T& made(std::atomic<const T*>& place, const Make& make) {
-  if (const T* there = place.load(std::memory_order_acquire)) return *there;
-  auto own = std::make_unique<const T>(make());
-  const T* first = nullptr;
-  if (place.compare_exchange_strong(first, own.get(), std::memory_order_acq_rel)) return *own.release();
-  return *first;
+// The first 16 bits of a float, rounded, and what they say.
+std::uint16_t half(float number) {
+  return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(number) + 0x8000U) >> 16);
 }
 
-// Between which two of `range`, which are made if they are not there.
-template <class Rows, class Make>
-LightRows::Place place_in(const Range& range, LightRows::Family family, double x, Rows& rows,
-                          const Make& make) {
+float whole(std::uint16_t half) {
+  return std::bit_cast<float>(std::uint32_t{half} << 16);
+}
+
+// Between which two of a table.
+LightRows::Place place_in(const RowRange& range, LightRows::Family family, double x,
+                          const LightRows::Row* rows) {
   const std::size_t index = range.index(x);
   const double low = range.at(index), high = range.at(index + 1), step = high - low;
-  return {family,
-          &made(rows[index], [&] { return make(low); }),
-          &made(rows[index + 1], [&] { return make(high); }),
-          (x - low) / step,
-          step,
-          1.0,
-          x};
-}
-
-LightRows::Row daylight_row(double shift) {
-  const ObserverSamples light = daylight_at(shift);
-  return {0.0, 0.0, sum_over_film(light), film_slope(light, shift)};
-}
-
-// Relative to the Boltzmann factor at 830 nm, so that none vanishes, however cold the body is.
-double body_reference(double kelvin) {
-  return planck::second_constant_nm_kelvin / (cie::last_nm * kelvin);
-}
-
-ObserverSamples body_at(double kelvin) {
-  return samples_of(Spectrum::planckian(kelvin, -body_reference(kelvin)), 1.0);
-}
-
-// Of luminance 1.
-ObserverSamples normalised_body(double kelvin) {
-  ObserverSamples light = body_at(kelvin);
-  const double y = luminance(sum_over_film(light));
-  for (double& value : light) value /= y;
-  return light;
-}
-
-LightRows::Row body_row(double kelvin) {
-  const ObserverSamples light = body_at(kelvin);
-  // d ln B / d ln T = x / (1 - exp(-x)) = x (1 + 1 / (exp(x) - 1)), x = c2/(λT); B is λ^-5 / (exp(x) - 1)
-  const double share = exponential_of(-body_reference(kelvin));
-  ObserverSamples growth;
-  for (std::size_t i = 0; i < growth.size(); ++i) {
-    const double nm = cie::first_nm + static_cast<double>(i);
-    const double x = planck::second_constant_nm_kelvin / (nm * kelvin);
-    growth[i] = light[i] * (x * (1.0 + light[i] * share * (nm * nm) * (nm * nm) * nm));
-  }
-  const LinearRgb film = sum_over_film(light), slope = sum_over_film(growth) / kelvin;
-  const double y = luminance(film), y_slope = luminance(slope);
-  LightRows::Row row;
-  row.log_scale = logarithm_of(y) - body_reference(kelvin);
-  row.log_slope = y_slope / y;
-  row.film = film / y;
-  row.film_slope = slope / y - row.film * row.log_slope;
-  return row;
+  return {family, rows + index, rows + index + 1, (x - low) / step, step, 1.0, x};
 }
 
 }  // namespace
@@ -209,12 +57,10 @@ LinearRgb LightRows::Weighting::film(const double* reflectance, const double* se
                                      const SpectralKernels& kernels) const {
   const double* weights[4][3];
   for (std::size_t i = 0; i < around.size(); ++i) {
-    weights[i][0] = around[i]->red.data();
-    weights[i][1] = around[i]->green.data();
-    weights[i][2] = around[i]->blue.data();
+    std::copy_n(around[i].of, 3, weights[i]);
   }
   double colour[3];
-  kernels.film_between(weights, share.data(), reflectance, second, static_cast<int>(around[0]->red.size()),
+  kernels.film_between(weights, share.data(), reflectance, second, static_cast<int>(rows->nm_.size()),
                        colour);
   return {colour[0], colour[1], colour[2]};
 }
@@ -224,44 +70,43 @@ LinearRgb LightRows::Weighting::left_out(double nm) const {
       std::min(static_cast<std::size_t>(nm - cie::first_nm), std::size_t{cie::sample_count - 2});
   const double along = nm - (cie::first_nm + static_cast<double>(cell));
   const auto interpolated = [&](const Weights& row) {
-    const float* at = &row.left_out[3 * cell];
-    const LinearRgb before{at[0], at[1], at[2]}, after{at[3], at[4], at[5]};
+    const std::uint16_t* const at = row.left_out + 3 * cell;
+    const LinearRgb before{whole(at[0]), whole(at[1]), whole(at[2])};
+    const LinearRgb after{whole(at[3]), whole(at[4]), whole(at[5])};
     return before + along * (after - before);
   };
   LinearRgb sum{0.0};
-  for (std::size_t i = 0; i < around.size(); ++i) sum += share[i] * interpolated(*around[i]);
+  for (std::size_t i = 0; i < around.size(); ++i) sum += share[i] * interpolated(around[i]);
   // It bends where a wavelength of the set is, too.
   for (std::size_t m = rows->beyond_[cell]; m < rows->beyond_[cell + 1]; ++m) {
     const double place = rows->nm_[m] - (cie::first_nm + static_cast<double>(cell));
     const double bend = std::min(along * (1.0 - place), place * (1.0 - along));
     for (std::size_t i = 0; i < around.size(); ++i) {
-      const Weights& row = *around[i];
-      sum += bend * share[i] * LinearRgb{row.red[m], row.green[m], row.blue[m]};
+      const Weights& row = around[i];
+      sum += bend * share[i] * LinearRgb{row.of[0][m], row.of[1][m], row.of[2][m]};
     }
   }
   return sum;
 }
 
+// Room that is not written to is not taken from the system.
+LightRows::Shelf::Shelf(std::size_t rows, std::size_t wavelengths)
+    : there(rows),
+      weights(std::make_unique_for_overwrite<double[]>(rows * 3 * wavelengths)),
+      left_out(std::make_unique_for_overwrite<std::uint16_t[]>(rows * left_out_count)) {}
+
 LightRows::LightRows(std::vector<double> nm)
     : nm_(std::move(nm)),
       spline_(std::make_unique<const SplineWeights>(nm_)),
-      daylight_(shifts.rows(), shifts.rows()),
-      bodies_(temperatures.rows(), cold.rows() + hot.rows()) {
+      daylight_(shifts.rows(), nm_.size()),
+      bodies_(cold.rows() + hot.rows(), nm_.size()) {
   for (std::size_t i = 0; i < cie::sample_count; ++i) {
     const auto beyond = std::upper_bound(nm_.begin(), nm_.end(), cie::first_nm + static_cast<double>(i));
     beyond_.push_back(static_cast<std::size_t>(beyond - nm_.begin()));
   }
 }
 
-LightRows::~LightRows() {
-  const auto drop = [](auto& made) {
-    for (auto& one : made) delete one.load(std::memory_order_relaxed);
-  };
-  for (Rows* rows : {&daylight_, &bodies_}) {
-    drop(rows->rows);
-    drop(rows->weights);
-  }
-}
+LightRows::~LightRows() = default;
 
 std::optional<LightRows::Place> LightRows::at(const Spectrum& light, double shift) const {
   const SpectrumForm& form = light.form();
@@ -272,7 +117,7 @@ std::optional<LightRows::Place> LightRows::at(const Spectrum& light, double shif
   }
   if (form.kind != SpectrumForm::Kind::d65 && form.kind != SpectrumForm::Kind::illuminant) return {};
   if (shifts.has(shift)) {
-    Place place = place_in(shifts, Family::daylight, shift, daylight_.rows, daylight_row);
+    Place place = place_in(shifts, Family::daylight, shift, daylight_row_table);
     place.scale = form.scale;
     return place;
   }
@@ -284,7 +129,7 @@ LightRows::Place LightRows::body(double kelvin, double log_divisor, double scale
   static thread_local Row own;
   Place place{Family::alone, &own, &own, 0.0, 0.0, 1.0, kelvin};
   if (temperatures.has(kelvin)) {
-    place = place_in(temperatures, Family::bodies, kelvin, bodies_.rows, body_row);
+    place = place_in(temperatures, Family::bodies, kelvin, body_row_table);
   } else {
     own = body_row(kelvin);
   }
@@ -295,13 +140,12 @@ LightRows::Place LightRows::body(double kelvin, double log_divisor, double scale
 }
 
 LightRows::Weighting LightRows::weighting(const Place& place) const {
-  static thread_local Weights own;
   if (place.family == Family::alone) {
-    own = make_weights(normalised_body(place.at));
-    return {this, {&own, &own, &own, &own}, {1.0, 0.0, 0.0, 0.0}};
+    const Weights own = make_weights(normalised_body(place.at));
+    return {this, {own, own, own, own}, {1.0, 0.0, 0.0, 0.0}};
   }
   const bool daylight = place.family == Family::daylight;
-  const Range& range = daylight ? shifts : is_hot(place.at) ? hot : cold;
+  const RowRange& range = daylight ? shifts : is_hot(place.at) ? hot : cold;
   const std::size_t before = !daylight && is_hot(place.at) ? cold.rows() : 0;
   const std::size_t index = range.index(place.at);
   const std::size_t first = std::min(index == 0 ? 0 : index - 1, range.rows() - 4);
@@ -309,7 +153,7 @@ LightRows::Weighting LightRows::weighting(const Place& place) const {
   double at[4];
   for (std::size_t i = 0; i < 4; ++i) {
     at[i] = range.at(first + i);
-    weighting.around[i] = &weights_of(place.family, before + first + i);
+    weighting.around[i] = weights_of(place.family, before + first + i);
   }
   for (std::size_t i = 0; i < 4; ++i) {
     double above = 1.0, below = 1.0;
@@ -323,24 +167,50 @@ LightRows::Weighting LightRows::weighting(const Place& place) const {
   return weighting;
 }
 
-const LightRows::Weights& LightRows::weights_of(Family family, std::size_t index) const {
-  if (family == Family::daylight) {
-    return made(daylight_.weights[index], [&] { return make_weights(daylight_at(shifts.at(index))); });
+LightRows::Weights LightRows::weights_of(Family family, std::size_t index) const {
+  Shelf& shelf = family == Family::daylight ? daylight_ : bodies_;
+  const std::size_t n = nm_.size();
+  double* const first = &shelf.weights[index * 3 * n];
+  std::uint16_t* const left_out = &shelf.left_out[index * left_out_count];
+  if (!shelf.there[index].load(std::memory_order_acquire)) {
+    // Two threads may make the same: the one that comes first puts it there.
+    const Weights own = make_weights(family == Family::daylight ? daylight_at(shifts.at(index))
+                                     : index < cold.rows()      ? normalised_body(cold.at(index))
+                                                           : normalised_body(hot.at(index - cold.rows())));
+    const std::lock_guard lock(shelf.filling);
+    if (!shelf.there[index].load(std::memory_order_relaxed)) {
+      // A scene that asks for one row asks for its neighbours.
+      constexpr std::size_t together = 16;
+      const std::size_t begin = index - index % together;
+      const std::size_t count = std::min(together, shelf.there.size() - begin);
+      if (std::ranges::none_of(std::span(shelf.there).subspan(begin, count),
+                               [](const auto& one) { return one.load(std::memory_order_relaxed); })) {
+        take_room(std::span(&shelf.weights[begin * 3 * n], count * 3 * n));
+        take_room(std::span(&shelf.left_out[begin * left_out_count], count * left_out_count));
+      }
+      for (std::size_t c = 0; c < 3; ++c) std::copy_n(own.of[c], n, first + c * n);
+      std::copy_n(own.left_out, left_out_count, left_out);
+      shelf.there[index].store(true, std::memory_order_release);
+    }
   }
-  return made(bodies_.weights[index], [&] {
-    const double kelvin = index < cold.rows() ? cold.at(index) : hot.at(index - cold.rows());
-    return make_weights(normalised_body(kelvin));
-  });
+  return {{first, first + n, first + 2 * n}, left_out};
 }
 
-const LightRows::Weights& LightRows::of_white() const {
+LightRows::Weights LightRows::of_white() const {
   return weights_of(Family::daylight, shifts.index(1.0));
 }
 
+// Good until the next are made in the same thread.
 LightRows::Weights LightRows::make_weights(const ObserverSamples& light) const {
-  FilmWeights weights = spline_->under(light);
-  std::vector<float> left_out = spline_->left_out(light, weights);
-  return {std::move(weights.red), std::move(weights.green), std::move(weights.blue), std::move(left_out)};
+  static thread_local std::vector<double> weights;
+  static thread_local std::vector<float> floats(left_out_count);
+  static thread_local std::vector<std::uint16_t> left_out(left_out_count);
+  const std::size_t n = nm_.size();
+  if (weights.size() < 3 * n) weights.resize(3 * n);
+  double* const of[3] = {weights.data(), weights.data() + n, weights.data() + 2 * n};
+  spline_->fill(light, of, floats.data());
+  std::ranges::transform(floats, left_out.begin(), half);
+  return {{of[0], of[1], of[2]}, left_out.data()};
 }
 
 }  // namespace backlight

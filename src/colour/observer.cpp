@@ -81,10 +81,8 @@ WavelengthSet::WavelengthSet(int count) {
   for (const double nm : nm_) places_.push_back((nm - centre_nm) / half_width_nm);
   ObserverSamples even;
   even.fill(1.0);
-  FilmWeights weights = SplineWeights(nm_).under(even);
-  red_ = std::move(weights.red);
-  green_ = std::move(weights.green);
-  blue_ = std::move(weights.blue);
+  for (std::vector<double>* channel : {&red_, &green_, &blue_}) channel->resize(nm_.size());
+  SplineWeights(nm_).fill(even, {red_.data(), green_.data(), blue_.data()}, nullptr);
   std::vector<double> daylight(nm_.size());
   Spectrum::d65().evaluate(nm_.data(), count, daylight.data());
   const LinearRgb white = film(daylight.data());
@@ -174,8 +172,7 @@ WavelengthSet::Upsampled WavelengthSet::upsampled(const LinearRgb& rgb, double s
 
 SigmoidReflectance WavelengthSet::match(const SigmoidReflectance& start, const LinearRgb& rgb) const {
   static const SpectralKernels& widest = spectral_kernels(InstructionSet::widest);
-  const LightRows::Weights& white = lights_->of_white();
-  const double* const weights[3] = {white.red.data(), white.green.data(), white.blue.data()};
+  const LightRows::Weights white = lights_->of_white();
   const auto see = [&](const SigmoidReflectance& shape) {
     SpectrumForm form;
     form.c0 = shape.c0;
@@ -184,7 +181,7 @@ SigmoidReflectance WavelengthSet::match(const SigmoidReflectance& start, const L
     form.middle = shape.middle;
     form.half = shape.half;
     double sums[4][3];
-    widest.film_and_slopes(form, nm_.data(), places_.data(), weights, size(), sums);
+    widest.film_and_slopes(form, nm_.data(), places_.data(), white.of, size(), sums);
     Seen seen;
     for (int c = 0; c < 3; ++c) {
       seen.colour[c] = sums[0][c];

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "backlight/base/lanes.h"
+#include "room.h"
 
 namespace backlight {
 namespace {
@@ -105,6 +106,10 @@ void ReflectedLight::fill(Cell& cell, const Pair& pair, const Axis& axis, const 
 LinearRgb ReflectedLight::per_luminance(const Pair& pair, double doppler, double lamp_doppler,
                                         bool one_lamp_doppler, const SpectralKernels& kernels) {
   if (cells_.empty()) {
+    nodes_.reserve(node_places);
+    cells_.reserve(cell_places);
+    take_room(std::span(nodes_.data(), node_places));
+    take_room(std::span(cells_.data(), cell_places));
     nodes_.resize(node_places);
     cells_.resize(cell_places);
   }

@@ -68,6 +68,17 @@ BACKLIGHT_LANES LanePairs<N> load_pairs(const double (*table)[2], const long lon
 }
 
 template <int N>
+struct FloatRegister;
+template <>
+struct FloatRegister<2> {
+  using Vec = float __attribute__((vector_size(8)));
+};
+template <>
+struct FloatRegister<4> {
+  using Vec = float __attribute__((vector_size(16)));
+};
+
+template <int N>
 struct SpectralKernelsOf {
   using V = Lanes<N>;
   using Mask = LaneMask<N>;
@@ -248,8 +259,122 @@ struct SpectralKernelsOf {
     }
   }
 
+  /// Red, green, blue and nothing.
+  struct Channels {
+    static constexpr int width = N < 4 ? N : 4;
+    Lanes<width> of[4 / width];
+
+    static BACKLIGHT_LANES Channels load(const double* from) {
+      Channels r;
+      for (int i = 0; i < 4 / width; ++i) r.of[i] = Lanes<width>::load(from + i * width);
+      return r;
+    }
+    static BACKLIGHT_LANES Channels none() {
+      Channels r;
+      for (auto& part : r.of) part = 0.0;
+      return r;
+    }
+    BACKLIGHT_LANES void store(double* to) const {
+      for (int i = 0; i < 4 / width; ++i) of[i].store(to + i * width);
+    }
+    /// Three of them.
+    BACKLIGHT_LANES void store_rounded(float* to) const {
+      using Floats = typename FloatRegister<width>::Vec;
+      float all[4];
+      for (int i = 0; i < 4 / width; ++i) {
+        const Floats rounded = __builtin_convertvector(of[i].v, Floats);
+        __builtin_memcpy(all + i * width, &rounded, sizeof rounded);
+      }
+      __builtin_memcpy(to, all, 3 * sizeof(float));
+    }
+    friend BACKLIGHT_LANES Channels operator+(const Channels& a, const Channels& b) {
+      Channels r;
+      for (int i = 0; i < 4 / width; ++i) r.of[i] = a.of[i] + b.of[i];
+      return r;
+    }
+    friend BACKLIGHT_LANES Channels operator*(double factor, const Channels& a) {
+      Channels r;
+      for (int i = 0; i < 4 / width; ++i) r.of[i] = Lanes<width>(factor) * a.of[i];
+      return r;
+    }
+    friend BACKLIGHT_LANES Channels operator-(const Channels& a, const Channels& b) {
+      Channels r;
+      for (int i = 0; i < 4 / width; ++i) r.of[i] = a.of[i] - b.of[i];
+      return r;
+    }
+  };
+
+  /// What each node's value adds by itself, and what its curvature does: four numbers each.
+  static BACKLIGHT_LANES void gather_shares(const SplineForm& f, const double* light, double* value,
+                                            double* curvature) {
+    Channels value_before = Channels::none(), curvature_before = Channels::none();
+    int i = 0;
+    for (int node = 0; node + 1 < f.count; ++node) {
+      Channels low = Channels::none(), high = low, low_bend = low, high_bend = low;
+      for (; i < f.nodes[node].samples_end; ++i) {
+        const auto& share = f.samples[i].share;
+        low = low + light[i] * Channels::load(share[0]);
+        high = high + light[i] * Channels::load(share[1]);
+        low_bend = low_bend + light[i] * Channels::load(share[2]);
+        high_bend = high_bend + light[i] * Channels::load(share[3]);
+      }
+      (value_before + low).store(value + 4 * node);
+      (curvature_before + low_bend).store(curvature + 4 * node);
+      value_before = high;
+      curvature_before = high_bend;
+    }
+    value_before.store(value + 4 * (f.count - 1));
+  }
+
+  /// Curvatures are linear in the values: their part goes back to these by the transposed equations.
+  static BACKLIGHT_LANES void add_curvatures(const SplineForm& f, double* curvature, double* value) {
+    Channels reduced = Channels::none();
+    for (int i = 1; i + 1 < f.count; ++i) {
+      const SplineForm::Node& node = f.nodes[i];
+      reduced = node.pivot * Channels::load(curvature + 4 * i) - node.lower * reduced;
+      reduced.store(curvature + 4 * i);
+    }
+    Channels above = Channels::none(), bend_above = Channels::none();
+    for (int i = f.count - 1; i > 0; --i) {
+      const SplineForm::Node& below = f.nodes[i - 1];
+      const Channels here =
+          i > 1 ? Channels::load(curvature + 4 * (i - 1)) - below.upper * above : Channels::none();
+      const Channels bend = below.bend * (above - here);
+      (Channels::load(value + 4 * i) + (bend_above - bend)).store(value + 4 * i);
+      above = here;
+      bend_above = bend;
+    }
+    (Channels::load(value) + bend_above).store(value);
+  }
+
+  static void spline_weights(const SplineForm& f, const double* light, double* work,
+                             double* const (&weights)[3], float* left_out) {
+    double* const value = work;
+    gather_shares(f, light, value, work + 4 * f.count);
+    add_curvatures(f, work + 4 * f.count, value);
+    for (int i = 0; i < f.count; ++i) {
+      for (int c = 0; c < 3; ++c) weights[c][i] = value[4 * i + c];
+    }
+    if (left_out == nullptr) return;
+    // From the long end: sums of what is beyond k, the samples' less the spline's weights, and their moments.
+    Channels sum = Channels::none(), moment = Channels::none();
+    int node = f.count;
+    for (int i = cie::sample_count; i-- > 0;) {
+      const double k = cie::first_nm + static_cast<double>(i);
+      for (; node > 0 && f.nm[node - 1] > k; --node) {
+        const Channels w = Channels::load(value + 4 * (node - 1));
+        sum = sum - w;
+        moment = moment - f.nm[node - 1] * w;
+      }
+      (moment - k * sum).store_rounded(left_out + 3 * i);
+      const Channels here = light[i] * Channels::load(f.film_weights[i]);
+      sum = sum + here;
+      moment = moment + k * here;
+    }
+  }
+
   static constexpr SpectralKernels table(const char* name) {
-    return {name, N, evaluate, film, film_between, film_and_slopes};
+    return {name, N, evaluate, film, film_between, film_and_slopes, spline_weights};
   }
 };
 

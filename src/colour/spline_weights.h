@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "backlight/base/lanes.h"
+#include "backlight/colour/spectral_kernels.h"
 #include "rec709.h"
 
 namespace backlight {
@@ -12,7 +12,7 @@ namespace backlight {
 /// The light at each of the observer's samples, 360 to 830 nm.
 using ObserverSamples = std::array<double, cie::sample_count>;
 
-/// Red, green, blue and 0 of each of the observer's samples, to be taken two at a time.
+/// Red, green, blue and 0 of each of the observer's samples, to be taken two or four at a time.
 struct WeightLanes {
   double of[cie::sample_count][4]{};
 };
@@ -27,11 +27,6 @@ constexpr WeightLanes make_film_weight_lanes() {
 
 inline constexpr WeightLanes film_weight_lanes = make_film_weight_lanes();
 
-/// One value a wavelength, for each of the film's channels.
-struct FilmWeights {
-  std::vector<double> red, green, blue;
-};
-
 /// The natural cubic spline through values at given wavelengths, read at the observer's samples: what each
 /// value adds to the film under a light, docs/colour.md equation (c1).
 class SplineWeights {
@@ -39,30 +34,15 @@ class SplineWeights {
   /// At least 4 wavelengths, ascending from 360 to 830 nm.
   explicit SplineWeights(std::vector<double> nm);
 
-  [[nodiscard]] FilmWeights under(const ObserverSamples& light) const;
-
-  /// By how much these weights of that light fall short of its sum over max(0, λ - k), for k = 360, 361, ...
-  /// 830 nm: red, green and blue of each.
-  [[nodiscard]] std::vector<float> left_out(const ObserverSamples& light, const FilmWeights& weights) const;
+  /// weights[c][m]: what a reflectance 1 at wavelength m alone adds to channel c. `left_out`, if not null: by
+  /// how much these weights fall short of the light's sum over max(0, λ - k), for k = 360, 361, ... 830 nm:
+  /// red, green and blue of each.
+  void fill(const ObserverSamples& light, double* const (&weights)[3], float* left_out) const;
 
  private:
-  // What the values and the curvatures at both ends of a sample's cell have in the spline there.
-  struct Sample {
-    std::size_t cell;
-    double value[2];
-    double curvature[2];
-  };
-  /// Red and green, blue and nothing.
-  struct Channels {
-    Lanes<2> red_green = 0.0;
-    Lanes<2> blue = 0.0;
-  };
-  void solve_for_curvatures(std::vector<Channels>& right) const;
-  static Channels seen(const ObserverSamples& light, std::size_t sample);
-  static Channels add(const Channels& sum, double factor, const Channels& more);
-
   std::vector<double> nm_;
-  std::vector<Sample> samples_;
+  std::vector<SplineForm::Sample> samples_;
+  std::vector<SplineForm::Node> nodes_;
 };
 
 }  // namespace backlight

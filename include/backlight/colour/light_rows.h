@@ -3,7 +3,9 @@
 
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -22,8 +24,8 @@ class SplineWeights;
 /// There are rows of D65 by its shift s, of each doubling 128, and rows of blackbodies by temperature times
 /// shift, all of which are one family, of each doubling 256, of their weights 64, or 16 above 8192 K. In
 /// between, the film colour of the whole light follows the cubic that has the rows' values and slopes,
-/// weights the cubic through the four rows around. A row, and its weights, are made when they are first asked
-/// for, from any thread, and depend on nothing but the row's number.
+/// weights the cubic through the four rows around. Rows are computed while Backlight is built; the weights of
+/// one are made when they are first asked for, from any thread, and depend on nothing but the row's number.
 class LightRows {
  public:
   /// What one row has, of light divided by e^log_scale.
@@ -36,9 +38,10 @@ class LightRows {
 
   /// What a reflectance makes of that.
   struct Weights {
-    std::vector<double> red, green, blue;  ///< what a reflectance 1 at each wavelength alone adds
-    /// What the interpolation of max(0, λ - k) leaves out, for k = 360, 361, ... 830 nm: three numbers each.
-    std::vector<float> left_out;
+    const double* of[3];  ///< red, green, blue: what a reflectance 1 at each wavelength alone adds
+    /// What the interpolation of max(0, λ - k) leaves out, for k = 360, 361, ... 830 nm: three numbers each,
+    /// of floats the first 16 bits. It is a small correction: 0.2 % of it do not matter, but room does.
+    const std::uint16_t* left_out;
   };
 
   /// Which rows: D65's, blackbodies', or a row made for one place.
@@ -61,7 +64,7 @@ class LightRows {
   /// The weights of a place, of its scale 1. Good until those of another place are asked for.
   struct Weighting {
     const LightRows* rows;
-    std::array<const Weights*, 4> around;
+    std::array<Weights, 4> around;
     std::array<double, 4> share;  ///< of each in the cubic through all four
 
     /// Colour under reflectance[i] (or reflectance[i] second[i]) at wavelength i.
@@ -83,25 +86,27 @@ class LightRows {
   [[nodiscard]] Weighting weighting(const Place& place) const;
 
   /// Those of D65 at rest.
-  [[nodiscard]] const Weights& of_white() const;
+  [[nodiscard]] Weights of_white() const;
 
  private:
-  template <class T>
-  using Made = std::vector<std::atomic<const T*>>;
-  struct Rows {
-    Rows(std::size_t count, std::size_t weighed) : rows(count), weights(weighed) {}
-    Made<Row> rows;
-    Made<Weights> weights;
+  static constexpr std::size_t left_out_count = 3 * std::size_t{471};
+  /// Room for the weights of every row of a family.
+  struct Shelf {
+    Shelf(std::size_t rows, std::size_t wavelengths);
+    std::mutex filling;
+    std::vector<std::atomic<bool>> there;
+    std::unique_ptr<double[]> weights;  // red, green and blue of each row
+    std::unique_ptr<std::uint16_t[]> left_out;
   };
 
   [[nodiscard]] Place body(double kelvin, double log_divisor, double scale) const;
-  [[nodiscard]] const Weights& weights_of(Family family, std::size_t index) const;
+  [[nodiscard]] Weights weights_of(Family family, std::size_t index) const;
   [[nodiscard]] Weights make_weights(const std::array<double, 471>& light) const;
 
   std::vector<double> nm_;
   std::vector<std::size_t> beyond_;  // of nm_, from each of the observer's samples on
   std::unique_ptr<const SplineWeights> spline_;
-  mutable Rows daylight_, bodies_;
+  mutable Shelf daylight_, bodies_;
 };
 
 }  // namespace backlight

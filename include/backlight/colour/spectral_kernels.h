@@ -22,6 +22,26 @@ struct SpectrumForm {
   double above = 0.0;  ///< the same at 890 nm and above, and at 830 nm
 };
 
+/// What SplineWeights has of its wavelengths, as plain numbers.
+struct SplineForm {
+  /// One of the observer's 471.
+  struct Sample {
+    /// What the values at both ends of its cell, and the curvatures there, have in the spline: times the
+    /// film's red, green, blue and 0.
+    double share[4][4]{};
+  };
+  struct Node {
+    double pivot = 0.0, lower = 0.0, upper = 0.0;  ///< of the equations for the curvatures
+    double bend = 0.0;                             ///< 6 / distance to the next
+    int samples_end = 0;                           ///< of those between it and the next
+  };
+  int count;
+  const double* nm;
+  const Sample* samples;
+  const Node* nodes;
+  const double (*film_weights)[4];  ///< red, green, blue and 0 of each of the observer's samples
+};
+
 /// The kernels of one instruction set. All give the same bits.
 struct SpectralKernels {
   const char* name;
@@ -39,6 +59,9 @@ struct SpectralKernels {
   /// added to the polynomial: t[i]^2 in sums[1], t[i] in sums[2], 1 in sums[3].
   void (*film_and_slopes)(const SpectrumForm& sigmoid, const double* nm, const double* t,
                           const double* const (&weights)[3], int n, double (&sums)[4][3]);
+  /// SplineWeights::fill under the 471 samples of a light; `work`: room for eight numbers a node.
+  void (*spline_weights)(const SplineForm& form, const double* light, double* work,
+                         double* const (&weights)[3], float* left_out);
 };
 
 /// The kernels, if this machine runs them; `baseline` always does.
