@@ -124,6 +124,7 @@ struct ImageTracing::Parts {
     views = views_of(tracer, in_use, settings);
     for (int i = 0; i < std::max(1, settings.threads); ++i)
       memories.emplace_back(tracer, in_use, settings.instructions);
+    if (partial.band_count() > 0) partial.begin(0);  // so that its pages are touched before the first tile
     if (!scene.film.adaptive) return;
     plan = views.front().plan(memories.front());
     for (ThreadMemory& memory : memories) memory.sampler.emplace(plan);

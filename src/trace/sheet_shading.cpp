@@ -31,6 +31,7 @@ LaneBrightness lane_brightness(const BrightnessSwitches& on) {
 
 SheetScratch::SheetScratch(const SheetScene& scene, std::size_t lights, InstructionSet set)
     : tile_lamps(lights), packets(lights), group_of(scene.group_count(), -1) {
+  sheet_memory.resize(65);  // of a whole tile: its pages are touched here, not between its rays
   rays.instructions = points.rays.instructions = points.shadow.instructions = set;
   tile_cones.resize(scene.entries().size());
   sheet_cones.resize(scene.entries().size());
