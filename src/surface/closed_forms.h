@@ -49,7 +49,7 @@ struct LaneStretch {
 
   /// |coordinate| <= half, the faces being `low_part` and `low_part` + 1.
   BACKLIGHT_LANES void narrow_to_slab(V point, V direction, V half, double low_part) {
-    const typename V::Mask forwards = direction > V(0.0), level = direction == V(0.0);
+    const typename V::Mask forwards = direction > V(0.0), level = ~(forwards | (direction < V(0.0)));
     const V low = (-half - point) / direction, high = (half - point) / direction;
     const V enter = select(forwards, low, high), leave = select(forwards, high, low);
     const V never = select(magnitude(point) <= half, V(__builtin_inf()), V(-__builtin_inf()));

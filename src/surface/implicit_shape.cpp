@@ -52,11 +52,11 @@ double extent_of(const Shape& shape, const Extent& e) {
 Stretch inside_bounds(const Shape& shape, const LocalLine& line, const Vec3& room = Vec3{0.0}) {
   const Vec3 centre = 0.5 * low_of(shape) + 0.5 * high_of(shape);
   const Vec3 half = 0.5 * high_of(shape) - 0.5 * low_of(shape) + room;
-  Stretch stretch;
+  LaneStretch<Lanes<1>> stretch;
   for (int i = 0; i < 3; ++i) {
-    narrow_to_slab(stretch, line.point[i] - centre[i], line.direction[i], half[i], 2 * i + caps);
+    stretch.narrow_to_slab(line.point[i] - centre[i], line.direction[i], half[i], 2 * i + caps);
   }
-  return stretch;
+  return Stretch(stretch);
 }
 
 /// Where surfaces are looked for: a face of the bounds that happens to be one is not lost by rounding.

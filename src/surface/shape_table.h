@@ -1,7 +1,8 @@
 // What each kind of shape can do: one row a kind.
 //
-// To add a shape: an enumerator in ShapeKind with the function that makes it (surface/shape.h), a file here
-// with its methods, and its row in shape_table.cpp. Nothing else in the room asks for the kind.
+// To add a shape: an enumerator in ShapeKind with the function that makes it (surface/shape.h), its closed
+// form and kind in closed_forms.h, a file here with its methods, and its row in shape_table.cpp. Beside
+// these, only the plane is asked for by its kind: it is infinite.
 #pragma once
 
 #include <cmath>
@@ -90,12 +91,13 @@ struct ShapeMethods {
   /// Begins the walk over the crossings of a shape that may have more than four; it may leave out those
   /// before the line's parameter `from`. Null: `crossings` reports them all.
   void (*begin_walk)(const Shape&, const LocalLine&, double from, SolidWalk&) = nullptr;
-  /// The first crossings of many lines at once, each as `crossings` would report it; null: one by one.
+  /// The first crossings of many lines at once, each as `crossings` would report it; null: those of a
+  /// closed form (closed_forms.h).
   void (*first_crossings)(const Shape&, const LocalLines&, double lambda_min,
                           std::span<FirstOnLine>) = nullptr;
   /// How crossings are found; null: in closed form.
   RootFinder (*finder)(const Shape&) = nullptr;
-  /// The points of many crossings, each on its own line and as `point` would find it; null: one by one.
+  /// The points of many crossings, each on its own line and as `point` would find it; null: likewise.
   void (*points)(const Shape&, const LocalLines&, std::span<const Crossing>, TextureCoordinates,
                  std::span<LocalPoint>) = nullptr;
   /// Whether each of many lines crosses the shape between the two λ, however many are asked together. Null:

@@ -8,11 +8,7 @@
 namespace backlight {
 namespace {
 
-// Rays of a run.
-constexpr int few = 16;
 constexpr int register_size = 8;
-// With no more occluders than this a packet is not divided.
-constexpr int few_occluders = 4;
 
 // The lowest eight bits, two bits apart.
 std::uint32_t spread(std::uint32_t a) {

@@ -11,6 +11,11 @@
 
 namespace backlight {
 
+/// With more occluders than this near some shadow rays, parts of them have lists of their own...
+inline constexpr int few_occluders = 4;
+/// ...down to so many neighbouring rays.
+inline constexpr int few = 16;
+
 /// Those of one light and one tile. Sheets of points are told by their number in the order of painting.
 class ShadowPackets {
  public:

@@ -16,10 +16,6 @@ constexpr int tile_list_from = 48;
 // From so many on, the shadow rays of a tile are sorted into packets, each with a list of its own. (Their
 // points are found twice for it: some 4 ms of an image of 720x526.)
 constexpr int packets_from = 1500;
-// With more occluders than this near a sheet of points...
-constexpr int few_occluders = 4;
-// ...as many points have a list of their own.
-constexpr int few = 16;
 
 Vec3 vec(const double (&from)[3][sheet_size], int lane) {
   return {from[0][lane], from[1][lane], from[2][lane]};
@@ -117,8 +113,10 @@ void SheetShader::try_entry(std::size_t light, int index, std::uint64_t candidat
   }
   const double end = tracer_.scene().lights[light].kind == LightKind::distant ? infinity : 1.0;
   const RaySheet* rays = &p.shadow;
-  std::uint64_t open = candidates & p.lit_bits();
-  if (&entry != entry_) {
+  std::uint64_t open = 0;
+  if (&entry == entry_) {
+    open = candidates & p.lit_bits();
+  } else {
     open = sheets_.kernels().cast(sheets_.eye(eye_).frames[at], sheets_.lamp(light).to_frame[at], candidates,
                                   p, work_.rays);
     rays = &work_.rays;
