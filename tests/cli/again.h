@@ -18,19 +18,6 @@
 
 namespace backlight::test {
 
-// Whether tests/support/misfortune.cpp can be loaded: sanitizers replace the same functions.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool misfortune_is_possible = false;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-inline constexpr bool misfortune_is_possible = false;
-#else
-inline constexpr bool misfortune_is_possible = true;
-#endif
-#else
-inline constexpr bool misfortune_is_possible = true;
-#endif
-
 using Arguments = std::vector<std::string>;
 using Files = std::vector<std::string>;
 

@@ -11,6 +11,20 @@
 
 namespace backlight::test {
 
+/// Sanitizers take memory of their own, and replace the functions that tests/support/misfortune.cpp does.
+#if defined(__has_feature)
+#define BACKLIGHT_HAS_FEATURE(name) __has_feature(name)  // clang
+#else
+#define BACKLIGHT_HAS_FEATURE(name) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
+    BACKLIGHT_HAS_FEATURE(address_sanitizer) || BACKLIGHT_HAS_FEATURE(thread_sanitizer)
+inline constexpr bool is_sanitized = true;
+#else
+inline constexpr bool is_sanitized = false;
+#endif
+#undef BACKLIGHT_HAS_FEATURE
+
 struct Outcome {
   int code = -1;  ///< exit code; 1000 + n when killed by signal n
   std::string out;

@@ -114,7 +114,7 @@ TEST_F(Streams, ThatAreClosedStayClosed) {
 
 // The signals come while the program is being loaded, long before it can look at its arguments.
 TEST_F(Streams, SignalsThatComeAtOnceAreAnsweredLikeOthers) {
-  if (!misfortune_is_possible) GTEST_SKIP() << "sanitizers replace the same functions";
+  if (is_sanitized) GTEST_SKIP() << "sanitizers replace the same functions";
   Outcome outcome = run(claim, misfortune("MISFORTUNE_SIGNAL=" + std::to_string(SIGUSR1)));
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   expect_images_and_nothing_else();
@@ -135,7 +135,7 @@ TEST_F(Streams, SignalsThatComeAtOnceAreAnsweredLikeOthers) {
 
 // Limits on processes (`ulimit -u`, a batch system's cgroup): from the N-th on, no thread can be begun.
 TEST_F(Streams, ThreadsThatCannotBeBegunAreDoneWithout) {
-  if (!misfortune_is_possible) GTEST_SKIP() << "sanitizers replace the same functions";
+  if (is_sanitized) GTEST_SKIP() << "sanitizers replace the same functions";
   const std::string why = "Resource temporarily unavailable";
   for (int there = 0; there <= 6; ++there) {
     const std::string call = "MISFORTUNE=thread:" + std::to_string(there + 1) + "+:" + std::to_string(EAGAIN);
