@@ -69,7 +69,7 @@ std::string kind_of(const Key& key) {
         kinds.push_back(std::to_string(form.count) + " points");
         break;
       case ValueKind::formula:
-        kinds.emplace_back("formula");
+        kinds.push_back(form.count > 0 ? std::to_string(form.count) + " formulas" : "formula");
         break;
       case ValueKind::choice:
       case ValueKind::text:

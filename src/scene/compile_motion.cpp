@@ -1,0 +1,307 @@
+#include "compile_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "backlight/surface/implicit_surface.h"
+#include "camera_motion.h"
+#include "compile_formulas.h"
+#include "compile_shapes.h"
+#include "motion_levels.h"
+#include "speed_proof.h"
+#include "words.h"
+
+namespace backlight {
+namespace {
+
+bool place_uses_time(const Node& table) {
+  for (const std::string_view key : {"position", "rotate", "scale"}) {
+    const Entry* entry = find(table, key);
+    if (entry != nullptr && uses_time(entry->node)) return true;
+  }
+  const Entry* parts = find(table, "part");
+  if (parts == nullptr || parts->node.array() == nullptr) return false;
+  return std::ranges::any_of(*parts->node.array(), place_uses_time);
+}
+
+/// Everywhere within a body's own box f is as it was, and outside it is undefined: an open surface ends
+/// there.
+Expression within_box(const Expression& f, const Vec3& low, const Vec3& high, bool closed) {
+  std::string inside;
+  const char* const names[3] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i) {
+    const std::string middle = number_text(0.5 * low[i] + 0.5 * high[i]);
+    const std::string half = number_text(0.5 * high[i] - 0.5 * low[i]);
+    inside += std::string(i > 0 ? ", " : "") + "abs(" + names[i] + " - (" + middle + ")) - " + half;
+  }
+  const std::string box = "max(" + inside + ")";
+  const std::string text = closed ? "max(f, " + box + ")" : "f + 0*sqrt(-" + box + ")";
+  const Expression outer = std::get<Expression>(Expression::parse(text, {"x", "y", "z", "t", "f"}));
+  Composer composer(ImplicitFormula::variables);
+  std::vector<Composer::Node> at;
+  for (std::size_t i = 0; i < ImplicitFormula::variables; ++i) at.push_back(composer.variable(i));
+  at.push_back(composer.insert(f, at));
+  return composer.expression(composer.insert(outer, at), f.text());
+}
+
+Expression of_text(const std::string& text, const std::vector<std::string>& names,
+                   const std::vector<double>& values) {
+  std::vector<std::string> variables{"x", "y", "z", "t"};
+  variables.insert(variables.end(), names.begin(), names.end());
+  return std::get<Expression>(Expression::parse(text, variables)).bind(ImplicitFormula::variables, values);
+}
+
+/// About the body's origin.
+MatterMotion::Ball ball_of(const MatterMotion::Body& body, const SpeedProof& proof, double radius, double c) {
+  MatterMotion::Ball ball{{}, radius, proof.centre_speed, proof.begins * c};
+  Composer composer(ImplicitFormula::variables);
+  const Composer::Node zero = composer.constant(0.0);
+  const std::array<Composer::Node, 4> origin{zero, zero, zero, composer.variable(ImplicitFormula::t)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    ball.path[i] = composer.expression(composer.insert(body.place[i], origin), "");
+  }
+  return ball;
+}
+
+class MotionCompiler {
+ public:
+  MotionCompiler(Compilation& c, const TableView& object, int frame)
+      : c_(c), object_(object), prover_(c, frame) {}
+
+  std::optional<MovingShape> put_in_motion(const Shape& shape, const SolidTree* solid, const Vec3& offset) {
+    MotionLevel whole = level_of(object_);
+    if (has_motion(object_)) whole.position = constant_formulas(Vec3{0.0});
+    const std::size_t errors = c_.values.diagnostics.error_count();
+    take_rocket(object_, c_.scene.c, whole);
+    if (c_.values.diagnostics.error_count() > errors) return std::nullopt;
+    MovingShape moving;
+    if (const auto at = constants_of(whole.position)) {
+      moving.placement = Placement(*at + offset, Vec3{0.0}, Vec3{1.0});
+      whole.position = constant_formulas(Vec3{0.0});
+    } else {
+      moving.placement = Placement(offset, Vec3{0.0}, Vec3{1.0});
+    }
+    offset_ = moving.placement.position();
+    if (solid == nullptr) {
+      if (auto turned = turned_in_place(shape, whole)) return turned;
+      auto leaf = leaf_in_motion(object_, shape, {whole}, false);
+      if (!leaf) return std::nullopt;
+      moving.shape = *std::move(leaf);
+      return moving;
+    }
+    SolidTree tree = *solid;
+    if (!put_parts_in_motion(object_, tree, {whole})) return std::nullopt;
+    moving.shape = csg(tree);
+    return moving;
+  }
+
+ private:
+  bool put_parts_in_motion(const TableView& table, SolidTree& tree, const std::vector<MotionLevel>& levels) {
+    tree.placement = Placement{};
+    if (tree.parts.empty()) {
+      auto leaf = leaf_in_motion(table, tree.shape, levels, true);
+      if (leaf) tree.shape = *std::move(leaf);
+      return leaf.has_value();
+    }
+    const NodeArray& written = *table.node_of("part")->array();
+    bool good = true;
+    for (std::size_t i = 0; i < tree.parts.size(); ++i) {
+      const TableView part(c_.values, &written[i], *find_table("object.part"));
+      std::vector<MotionLevel> inner = levels;
+      inner.push_back(level_of(part));
+      good = put_parts_in_motion(part, tree.parts[i], inner) && good;
+    }
+    return good;
+  }
+
+  /// A surface of revolution that turns about its own axis stays where it is: it keeps its closed form.
+  std::optional<MovingShape> turned_in_place(const Shape& shape, const MotionLevel& whole) {
+    const auto scale = constants_of(whole.scale);
+    const bool still = scale && !whole.rocket && constants_of(whole.position);
+    if (!still || constants_of(whole.rotate)) return std::nullopt;
+    const bool ball = shape.kind == ShapeKind::sphere && scale->x == scale->y && scale->y == scale->z;
+    const bool revolves = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::cylinder ||
+                          shape.kind == ShapeKind::cone || shape.kind == ShapeKind::torus ||
+                          shape.kind == ShapeKind::disk || shape.kind == ShapeKind::plane;
+    const auto about_x = whole.rotate[0].constant();
+    const auto about_z = whole.rotate[2].constant();
+    const bool about_axis = revolves && scale->x == scale->z && about_x == 0.0 && about_z;
+    if (!ball && !about_axis) return std::nullopt;
+    MotionLevel own = whole;
+    own.scale = constant_formulas(Vec3{1.0});
+    if (!ball) own.rotate[2] = constant_formulas(Vec3{0.0})[2];
+    if (!prover_.prove(object_, {whole}, hull_of(shape), offset_)) return std::nullopt;
+    MovingShape turned{shape, Placement(offset_, {0.0, 0.0, ball ? 0.0 : *about_z}, *scale)};
+    turned.shape.motion =
+        std::make_shared<const MatterMotion>(body_of({own}), shape, std::nullopt, 1.0 / c_.scene.c);
+    return turned;
+  }
+
+  std::optional<Shape> leaf_in_motion(const TableView& table, const Shape& shape,
+                                      const std::vector<MotionLevel>& levels, bool closed) {
+    auto formula = body_formula(table, shape, closed);
+    if (!formula) return std::nullopt;
+    SurfaceSet one;
+    one.add(shape, Placement{});
+    const auto proof = prover_.prove(table, levels, hull_of(shape), offset_);
+    if (!proof) return std::nullopt;
+    const MatterMotion::Body body = body_of(levels);
+    const MatterMotion::Ball ball = ball_of(
+        body, *proof, one.bounds(0).radius * stretch_of(levels, proof->begins) * (1.0 + 1e-12), c_.scene.c);
+    Vec3 low{0.0}, high{0.0};
+    bool rests = std::isinf(ball.begins);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double from = std::isinf(proof->begins) ? -1e15 : proof->begins;
+      const Interval range = over_times(ball.path[i], from, prover_.last()).value;
+      low[static_cast<int>(i)] = range.lower - ball.radius;
+      high[static_cast<int>(i)] = range.upper + ball.radius;
+      rests = rests && ball.path[i].constant();
+    }
+    const bool bounded = std::isinf(ball.begins) && std::isfinite(glm::length(high - low)) &&
+                         glm::length(high - low) < greatest_composed;
+    if (!bounded) {
+      low = Vec3{-std::numeric_limits<double>::infinity()};
+      high = -low;
+    }
+    ImplicitOptions options;
+    options.seconds_per_length = 1.0 / c_.scene.c;
+    options.unresolved = shape.values[7] == 1.0 && shape.kind == ShapeKind::implicit ? UnresolvedRoots::skip
+                                                                                     : UnresolvedRoots::take;
+    options.motion = std::make_shared<const MatterMotion>(
+        body, shape, rests ? std::nullopt : std::optional(ball), options.seconds_per_length);
+    options.finder = RootFinder::affine;
+    if (shape.blend) {
+      auto blend = std::make_shared<ImplicitBlend>();
+      for (const ImplicitFormula& part : shape.blend->formulas) {
+        blend->formulas.emplace_back(moved_formula(part.expression(), levels));
+      }
+      blend->members = shape.blend->members;
+      options.blend = blend;
+    }
+    const auto moved = std::make_shared<const ImplicitFormula>(moved_formula(*formula, levels));
+    return implicit(moved, low, high, options);
+  }
+
+  /// How much at most a body is stretched.
+  double stretch_of(const std::vector<MotionLevel>& levels, double begins) const {
+    double stretch = 1.0;
+    for (const MotionLevel& level : levels) {
+      double largest = 0.0;
+      for (const Expression& scale : level.scale) {
+        const Interval range = over_times(scale, std::isinf(begins) ? -1e15 : begins, prover_.last()).value;
+        largest = std::max({largest, std::abs(range.lower), std::abs(range.upper)});
+      }
+      stretch *= largest;
+    }
+    return stretch;
+  }
+
+  std::optional<Expression> body_formula(const TableView& table, const Shape& shape, bool closed) {
+    const auto& v = shape.values;
+    switch (shape.kind) {
+      case ShapeKind::sphere:
+        return of_text("x^2 + y^2 + z^2 - r^2", {"r"}, {v[0]});
+      case ShapeKind::box:
+        return of_text("max(abs(x) - a, abs(y) - b, abs(z) - c)", {"a", "b", "c"},
+                       {0.5 * v[0], 0.5 * v[1], 0.5 * v[2]});
+      case ShapeKind::cylinder:
+        return of_text("max(x^2 + z^2 - r^2, abs(y) - h)", {"r", "h"}, {v[0], 0.5 * v[1]});
+      case ShapeKind::cone:
+        return of_text("max(x^2 + z^2 - (m + k*y)^2, abs(y) - h)", {"m", "k", "h"},
+                       {0.5 * (v[0] + v[1]), (v[1] - v[0]) / v[2], 0.5 * v[2]});
+      case ShapeKind::torus:
+        return of_text("(sqrt(x^2 + z^2) - major)^2 + y^2 - minor^2", {"major", "minor"}, {v[0], v[1]});
+      case ShapeKind::disk:
+        return of_text("y + 0*sqrt(r^2 - x^2 - z^2)", {"r"}, {v[0]});
+      case ShapeKind::quadric:
+        if (!is_infinite(shape)) return formula_of(shape);
+        [[fallthrough]];
+      case ShapeKind::plane:
+        table.error("shape", "a surface without bounds can turn about its own axis, and not move otherwise",
+                    "a box or a disk of the size that is seen can");
+        return std::nullopt;
+      case ShapeKind::implicit: {
+        const Vec3 low{v[0], v[1], v[2]};
+        const Vec3 high{v[3], v[4], v[5]};
+        const auto bounds = c_.cache.bounds(*shape.formula);
+        const bool whole = bounds && !bounds->inside_beyond && bounds->low.x >= low.x &&
+                           bounds->low.y >= low.y && bounds->low.z >= low.z && bounds->high.x <= high.x &&
+                           bounds->high.y <= high.y && bounds->high.z <= high.z;
+        const Expression& f = shape.formula->expression();
+        return whole ? f : within_box(f, low, high, closed);
+      }
+      case ShapeKind::csg:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  Compilation& c_;
+  const TableView& object_;
+  SpeedProver prover_;
+  Vec3 offset_{0.0};
+};
+
+std::array<Expression, 3> formulas_of(const TableView& table, std::string_view key, const Vec3& now) {
+  const Node* node = table.node_of(key);
+  if (node == nullptr || !uses_time(*node)) return constant_formulas(now);
+  std::array<Expression, 3> formulas;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const NodeArray* three = node->array();
+    formulas[i] = formula_of_time(table.values(), three != nullptr ? (*three)[i] : *node);
+  }
+  return formulas;
+}
+
+}  // namespace
+
+MotionLevel level_of(const TableView& table) {
+  return {formulas_of(table, "position", table.vector("position")),
+          formulas_of(table, "rotate", table.vector("rotate")),
+          formulas_of(table, "scale", read_scale(table)), std::nullopt};
+}
+
+void take_rocket(const TableView& table, double c, MotionLevel& level) {
+  if (!table.has_valid("rocket")) return;
+  const TableView rocket = table.table("rocket", "rocket");
+  const auto along = rocket.complete() ? thrust_direction(rocket) : std::nullopt;
+  if (!along) return;
+  level.rocket = {rocket.number("acceleration") / (c * c), along->rounded(), c};
+  for (const char* key : {"position", "rotate", "scale"}) {
+    const Entry* written = find(*table.node(), key);
+    if (written != nullptr && uses_time(written->node)) {
+      table.error(key,
+                  std::string("what flies with a rocket cannot also move by a formula of t in '") + key + "'",
+                  "a solid's parts can, within it");
+    }
+  }
+}
+
+bool is_in_motion(const TableView& thing) {
+  if (thing.node() == nullptr) return false;
+  return find(*thing.node(), "rocket") != nullptr || (!has_motion(thing) && place_uses_time(*thing.node()));
+}
+
+std::shared_ptr<const MatterMotion> path_of(Compilation& c, const TableView& light, int frame) {
+  const std::size_t errors = c.values.diagnostics.error_count();
+  MotionLevel level{formulas_of(light, "position", light.vector("position")), constant_formulas(Vec3{0.0}),
+                    constant_formulas(Vec3{1.0}), std::nullopt};
+  if (has_motion(light)) level.position = constant_formulas(Vec3{0.0});
+  take_rocket(light, c.scene.c, level);
+  if (c.values.diagnostics.error_count() > errors) return {};
+  const SpeedProver prover(c, frame);
+  const auto proof = prover.prove(light, {level}, {HullBall{}}, Vec3{0.0});
+  if (!proof) return {};
+  const MatterMotion::Body body = body_of({level});
+  MatterMotion::Ball ball = ball_of(body, *proof, 0.0, c.scene.c);
+  return std::make_shared<const MatterMotion>(body, sphere(1.0), ball, 1.0 / c.scene.c);
+}
+
+std::optional<MovingShape> put_in_motion(Compilation& c, const TableView& object, int frame,
+                                         const Shape& shape, const SolidTree* solid, const Vec3& offset) {
+  return MotionCompiler(c, object, frame).put_in_motion(shape, solid, offset);
+}
+
+}  // namespace backlight
