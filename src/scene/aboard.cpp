@@ -110,7 +110,7 @@ bool ride(Compilation& c, const TableView& camera) {
   take_rocket(object, c.scene.c, level);
   const Vec3 point = camera.vector("position");
   const MatterMotion::Body body = body_of({level});
-  const MatterMotion motion(body, sphere(1.0), std::nullopt, 1.0 / c.scene.c);
+  const MatterMotion motion(body, sphere(1.0), std::nullopt, {1.0 / c.scene.c, true});
   const double time = time_of_exposure(camera, motion, body, point, base, c.scene.c);
   const Passenger here = at_time(body, point, time / c.scene.c, c.scene.c);
   const double speed = glm::length(here.velocity);

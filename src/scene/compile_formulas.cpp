@@ -8,6 +8,7 @@
 #include "backlight/expression/compose.h"
 #include "backlight/expression/enclosure.h"
 #include "backlight/surface/matter_motion.h"
+#include "motion_levels.h"
 
 namespace backlight {
 namespace {
@@ -153,7 +154,7 @@ std::shared_ptr<const MatterMotion> given_motion(Compilation& c, const TableView
                 "tighter bounds help where it is only fast far away");
     return {};
   }
-  return std::make_shared<const MatterMotion>(velocity, 1.0 / c.scene.c);
+  return std::make_shared<const MatterMotion>(velocity, clock_of(c));
 }
 
 void warn_of_still_matter(const TableView& table, std::string_view key) {

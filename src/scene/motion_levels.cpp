@@ -92,13 +92,6 @@ void fly(Composer& composer, const RocketFlight& rocket, bool forward, MotionCoo
   move_along(composer, rocket.along, composer.apply(Operation::subtract, there, here), x);
 }
 
-Expression at_level(const Expression& f, const std::vector<MotionLevel>& levels) {
-  Composer composer(ImplicitFormula::variables);
-  MotionCoordinates x = variables_of(composer);
-  for (const MotionLevel& level : levels) x = into(composer, level, x);
-  return composer.expression(composer.insert(f, x), f.text() + ", in motion");
-}
-
 }  // namespace
 
 bool MotionLevel::moves() const {
@@ -130,12 +123,31 @@ Expression formula_of_time(const ImageValues& values, const Node& written) {
   return composer.expression(composer.insert(formula, variables), formula.text());
 }
 
+namespace {
+
+MotionCoordinates into_all(Composer& composer, const std::vector<MotionLevel>& levels, MotionCoordinates x) {
+  for (const MotionLevel& level : levels) x = into(composer, level, x);
+  return x;
+}
+
+MotionCoordinates out_of_all(Composer& composer, const std::vector<MotionLevel>& levels,
+                             MotionCoordinates x) {
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level) x = out_of(composer, *level, x);
+  return x;
+}
+
+}  // namespace
+
 MatterMotion::Body body_of(const std::vector<MotionLevel>& levels) {
+  return body_within(levels, {});
+}
+
+MatterMotion::Body body_within(const std::vector<MotionLevel>& levels,
+                               const std::vector<MotionLevel>& within) {
   Composer composer(ImplicitFormula::variables);
-  MotionCoordinates place = variables_of(composer);
-  for (auto level = levels.rbegin(); level != levels.rend(); ++level) place = out_of(composer, *level, place);
-  MotionCoordinates point = variables_of(composer);
-  for (const MotionLevel& level : levels) point = into(composer, level, point);
+  const MotionCoordinates given = variables_of(composer);
+  const MotionCoordinates place = into_all(composer, within, out_of_all(composer, levels, given));
+  const MotionCoordinates point = into_all(composer, levels, out_of_all(composer, within, given));
   MatterMotion::Body body;
   for (std::size_t i = 0; i < 3; ++i) {
     body.place[i] = composer.expression(place[i], "place");
@@ -145,7 +157,9 @@ MatterMotion::Body body_of(const std::vector<MotionLevel>& levels) {
 }
 
 Expression moved_formula(const Expression& f, const std::vector<MotionLevel>& levels) {
-  return at_level(f, levels);
+  Composer composer(ImplicitFormula::variables);
+  const MotionCoordinates x = into_all(composer, levels, variables_of(composer));
+  return composer.expression(composer.insert(f, x), f.text() + ", in motion");
 }
 
 MotionCoordinates into(Composer& composer, const MotionLevel& level, MotionCoordinates x) {

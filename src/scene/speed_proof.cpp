@@ -210,7 +210,7 @@ SpeedProver::SpeedProver(Compilation& c, int frame) : c_(c) {
   const double gamma = relative_motion(its.celerity, camera.celerity).gamma;
   const double aside = camera.stereo ? gamma * camera.stereo->separation : 0.0;  // of an eye's event
   camera_ = event.x.rounded();
-  last_ = (double(event.t) + 1e-9 * std::abs(double(event.t)) + aside) / c.scene.c;
+  last_ = (double(event.t) + aside) / c.scene.c;
 }
 
 std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::vector<MotionLevel>& levels,
@@ -250,9 +250,8 @@ bool uses_time(const Node& node) {
 
 SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector<HullBall>& hull, double c,
                        double last, double reach) {
-  constexpr double always = -1e15;
   const auto below = [](const Speeds& its) { return its.body < 1.0; };
-  if (const Speeds all = speeds(levels, hull, c, always, last); below(all)) return {all.body, all.centre};
+  if (const Speeds all = speeds(levels, hull, c, -always, always); below(all)) return {all.body, all.centre};
   SpeedProof proof;
   proof.begins = last;
   constexpr int most_pieces = 40'000;

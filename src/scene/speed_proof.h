@@ -16,6 +16,9 @@ struct HullBall {
 };
 std::vector<HullBall> hull_of(const Shape& shape);
 
+/// Times within ± this are all times.
+inline constexpr double always = 1e15;
+
 /// What is known of a body's motion up to a time; times in seconds.
 struct SpeedProof {
   /// Of any point of it, in units of c; < 1 where proved.

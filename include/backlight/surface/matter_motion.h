@@ -36,10 +36,16 @@ class MatterMotion {
     double begins = -std::numeric_limits<double>::infinity();
   };
 
+  struct Time {
+    double seconds_per_length = 1.0;
+    /// False: nothing asks for own_time(), which takes as long as some hundred formulas.
+    bool counts = true;
+  };
+
   /// `body_shape`: whose texture coordinates the body points have.
-  MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball, double seconds_per_length);
+  MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball, Time time);
   /// Of a flow of matter, told by its velocity in local lengths for a second.
-  MatterMotion(Map velocity, double seconds_per_length);
+  MatterMotion(Map velocity, Time time);
 
   [[nodiscard]] const std::optional<Ball>& ball() const { return ball_; }
 
@@ -52,6 +58,8 @@ class MatterMotion {
   /// Of the matter at a place.
   [[nodiscard]] Vec3 velocity(const Vec3& place, double time) const;
 
+  /// Whether own times are asked for.
+  [[nodiscard]] bool counts_time() const { return time_.counts; }
   /// What the clock of the matter at a place has counted since the frame's time 0: equation (36).
   /// `rest_from_local`: what makes velocities of the frame's of local ones.
   [[nodiscard]] double own_time(const Vec3& place, double time, const Mat3& rest_from_local) const;
@@ -71,7 +79,7 @@ class MatterMotion {
   Shape body_shape_;
   std::optional<Map> velocity_;
   std::optional<Ball> ball_;
-  double seconds_per_length_;
+  Time time_;
 };
 
 }  // namespace backlight
