@@ -6,6 +6,7 @@
 #include <string>
 
 #include "backlight/expression/compose.h"
+#include "own_time.h"
 
 namespace backlight {
 namespace {
@@ -137,8 +138,7 @@ std::optional<Expression> bound_formula(Compilation& c, const TableView& table) 
   const Node* written = table.node_of("f");
   const auto* formula = written != nullptr ? std::get_if<Expression>(&written->value) : nullptr;
   if (formula == nullptr) return std::nullopt;
-  const std::vector<double>& values = c.values.variables;  // t, frame, parameters
-  Expression bound = formula->bind(ImplicitFormula::variables, std::span(values).subspan(1));
+  Expression bound = in_own_time(c.values, *formula);
   for (std::size_t i = 0; i < formula_coordinates; ++i) {
     if (bound.uses(i)) return bound;
   }
