@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "backlight/colour/observer.h"
+
 namespace backlight {
 namespace {
 
@@ -52,7 +54,7 @@ EmissionNow emission_at(const EmissionInTime& emission, double t) {
       return now;
     }
     const Spectrum body =
-        emission.absolute ? Spectrum::absolute_blackbody(kelvin) : Spectrum::blackbody(kelvin);
+        emission.absolute ? Spectrum::absolute_blackbody(kelvin) : LightRows::blackbody(kelvin);
     now.body = body.scaled(now.strength);
   } else if (emission.colour) {
     LinearRgb rgb;
@@ -67,7 +69,10 @@ LinearRgb own_radiance(const Material& material, double t) {
   if (!material.in_time || !material.in_time->emission)
     return material.emission ? material.emission->rgb : LinearRgb{0.0};
   const EmissionNow now = emission_at(*material.in_time->emission, t);
-  if (now.body) return film_colour(*now.body);
+  if (now.body) {
+    static const LightRows& rows = wavelength_set(default_wavelength_count).lights();
+    return rows.at(*now.body, 1.0)->film();
+  }
   return now.colour ? *now.colour : now.strength * material.emission->rgb;
 }
 

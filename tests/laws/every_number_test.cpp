@@ -1,5 +1,6 @@
 // Every number of a scene may be another for each image: the table of keys is gone through, and for each
 // number a formula of image_time gives, bit for bit, the picture of the number written out.
+// Longer than 400 lines: it has a row for each number.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -116,6 +116,23 @@ TEST(OwnTime, TemperatureIsOfEachPointsOwnTimeTimesDoppler) {
   }
 }
 
+// Without `absolute` the emission is the film Y at rest, however hot.
+TEST(OwnTime, BodiesOfAnyTemperatureAreAsBrightAsTheyAreSaidToBe) {
+  const std::string material = "temperature = \"3000*exp(3*sin(6*t))\", emission = 0.75, color = [0, 0, 0]";
+  for (const RenderChoices& choices : {RenderChoices{}, three_colours}) {
+    const Rendering image = render_text(start() + ball(at_rest, material), choices);
+    Worst error, colour;
+    on_the_ball(image, [&](int x, int y, double t) {
+      const LinearRgb rgb = image.rgb(x, y);
+      error.take(std::abs(luminance(rgb) / 0.75 - 1.0));
+      const LinearRgb body = film_colour(Spectrum::blackbody(3000.0 * std::exp(3.0 * std::sin(6.0 * t))));
+      colour.take(std::abs(rgb.r / (0.75 * body.r) - 1.0));
+    });
+    EXPECT_LT(error.error, 2e-6);
+    EXPECT_LT(colour.error, 5e-5);
+  }
+}
+
 TEST(OwnTime, ReflectanceIsOfEachPointsOwnTime) {
   const std::string formula = "\"0.5 + 0.4*sin(9*t)\"";
   const std::string grey = "[" + formula + ", " + formula + ", " + formula + "]";
