@@ -17,14 +17,15 @@
 namespace backlight {
 namespace {
 
-bool place_uses_time(const Node& table) {
+bool place_uses_time(const Description& description, const Node& table) {
   for (const std::string_view key : {"position", "rotate", "scale"}) {
     const Entry* entry = find(table, key);
-    if (entry != nullptr && uses_time(entry->node)) return true;
+    if (entry != nullptr && uses_time(description, entry->node)) return true;
   }
   const Entry* parts = find(table, "part");
   if (parts == nullptr || parts->node.array() == nullptr) return false;
-  return std::ranges::any_of(*parts->node.array(), place_uses_time);
+  return std::ranges::any_of(*parts->node.array(),
+                             [&](const Node& part) { return place_uses_time(description, part); });
 }
 
 /// Everywhere within a body's own box f is as it was, and outside it is undefined: an open surface ends
@@ -147,16 +148,17 @@ bool turns_in_itself(const Shape& shape, const std::vector<MotionLevel>& levels)
 
 /// Whether anything that matter has by its own time depends on it: a material, its presence, the light around
 /// it.
-bool lives_by_own_time(const Node& node, bool of_matter) {
-  if (of_matter && std::holds_alternative<Expression>(node.value)) return uses_time(node);
+bool lives_by_own_time(const Description& description, const Node& node, bool of_matter) {
+  if (of_matter && uses_time(description, node)) return true;
   if (const NodeArray* array = node.array()) {
-    return std::ranges::any_of(*array, [&](const Node& one) { return lives_by_own_time(one, of_matter); });
+    return std::ranges::any_of(
+        *array, [&](const Node& one) { return lives_by_own_time(description, one, of_matter); });
   }
   const NodeTable* table = node.table();
   return table != nullptr && std::ranges::any_of(*table, [&](const Entry& entry) {
            const bool matters =
                entry.name == "material" || entry.name == "visible" || entry.name == "radiance";
-           return lives_by_own_time(entry.node, of_matter || matters);
+           return lives_by_own_time(description, entry.node, of_matter || matters);
          });
 }
 
@@ -349,7 +351,7 @@ class MotionCompiler {
 
 std::array<Expression, 3> formulas_of(const TableView& table, std::string_view key, const Vec3& now) {
   const Node* node = table.node_of(key);
-  if (node == nullptr || !uses_time(*node)) return constant_formulas(now);
+  if (node == nullptr || !uses_time(table.values().description, *node)) return constant_formulas(now);
   std::array<Expression, 3> formulas;
   for (std::size_t i = 0; i < 3; ++i) {
     const NodeArray* three = node->array();
@@ -374,7 +376,7 @@ void take_rocket(const TableView& table, double c, MotionLevel& level) {
   level.rocket = {rocket.number("acceleration") / (c * c), along->rounded(), c};
   for (const char* key : {"position", "rotate", "scale"}) {
     const Entry* written = find(*table.node(), key);
-    if (written != nullptr && uses_time(written->node)) {
+    if (written != nullptr && uses_time(table.values().description, written->node)) {
       table.error(key,
                   std::string("what flies with a rocket cannot also move by a formula of t in '") + key + "'",
                   "a solid's parts can, within it");
@@ -385,12 +387,14 @@ void take_rocket(const TableView& table, double c, MotionLevel& level) {
 MatterMotion::Time clock_of(const Compilation& c) {
   const auto& aovs = c.scene.film.aovs;
   const bool shown = std::ranges::find(aovs, "properTime") != aovs.end();
-  return {1.0 / c.scene.c, shown || lives_by_own_time(c.values.description.root, false)};
+  return {1.0 / c.scene.c,
+          shown || lives_by_own_time(c.values.description, c.values.description.root, false)};
 }
 
 bool is_in_motion(const TableView& thing) {
   if (thing.node() == nullptr) return false;
-  return find(*thing.node(), "rocket") != nullptr || (!has_motion(thing) && place_uses_time(*thing.node()));
+  return find(*thing.node(), "rocket") != nullptr ||
+         (!has_motion(thing) && place_uses_time(thing.values().description, *thing.node()));
 }
 
 std::shared_ptr<const MatterMotion> path_of(Compilation& c, const TableView& light, int frame) {

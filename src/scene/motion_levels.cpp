@@ -4,6 +4,7 @@
 
 #include "backlight/surface/implicit.h"
 #include "backlight/surface/placement.h"
+#include "own_time.h"
 
 namespace backlight {
 namespace {
@@ -114,13 +115,12 @@ std::optional<Vec3> constants_of(const std::array<Expression, 3>& formulas) {
 
 Expression formula_of_time(const ImageValues& values, const Node& written) {
   if (const auto* number = std::get_if<double>(&written.value)) return constant_expression(*number + 0.0);
-  const auto& formula = std::get<Expression>(written.value);
+  const Expression formula = in_own_time(values, std::get<Expression>(written.value));
   Composer composer(ImplicitFormula::variables);
-  std::vector<GraphNode> variables{composer.variable(ImplicitFormula::t)};
-  for (std::size_t i = 1; i < values.variables.size(); ++i) {
-    variables.push_back(composer.constant(values.variables[i]));
-  }
-  return composer.expression(composer.insert(formula, variables), formula.text());
+  const std::array<GraphNode, 1> time{composer.variable(ImplicitFormula::t)};
+  return composer.expression(composer.insert(formula, time), formula.text());
+}
+return composer.expression(composer.insert(formula, variables), formula.text());
 }
 
 namespace {

@@ -230,7 +230,8 @@ std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::
   if (proof.begins < last_ - 1.000001 * seen) return proof;
   const char* key = "position";
   for (const char* written : {"scale", "rotate", "position"}) {
-    if (table.node_of(written) != nullptr && uses_time(*table.node_of(written))) key = written;
+    if (table.node_of(written) != nullptr && uses_time(c_.values.description, *table.node_of(written)))
+      key = written;
   }
   table.error(
       key,
@@ -242,10 +243,11 @@ std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::
   return std::nullopt;
 }
 
-bool uses_time(const Node& node) {
-  if (const auto* formula = std::get_if<Expression>(&node.value)) return formula->uses(0);
+bool uses_time(const Description& description, const Node& node) {
+  if (const auto* formula = std::get_if<Expression>(&node.value)) return description.depends_on_t(*formula);
   const NodeArray* array = node.array();
-  return array != nullptr && std::ranges::any_of(*array, uses_time);
+  return array != nullptr &&
+         std::ranges::any_of(*array, [&](const Node& one) { return uses_time(description, one); });
 }
 
 SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector<HullBall>& hull, double c,

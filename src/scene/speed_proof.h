@@ -51,7 +51,7 @@ class SpeedProver {
 };
 
 /// Whether a value as written depends on t.
-bool uses_time(const Node& node);
+bool uses_time(const Description& description, const Node& node);
 
 /// Proved backwards from `last`: as far as it is below the speed of light, or until nothing of it could be
 /// seen in a picture of things within `reach` seconds.
