@@ -120,8 +120,6 @@ Expression formula_of_time(const ImageValues& values, const Node& written) {
   const std::array<GraphNode, 1> time{composer.variable(ImplicitFormula::t)};
   return composer.expression(composer.insert(formula, time), formula.text());
 }
-return composer.expression(composer.insert(formula, variables), formula.text());
-}
 
 namespace {
 
