@@ -80,7 +80,7 @@ void move_along(Composer& composer, const Vec3& n, GraphNode way, MotionCoordina
   }
 }
 
-/// Equation (38): ξ = X·n + 1/a becomes √(ξ² ± t²).
+/// Equation (27): ξ = X·n + 1/a becomes √(ξ² ± t²).
 void fly(Composer& composer, const RocketFlight& rocket, bool forward, MotionCoordinates& x) {
   const GraphNode time = times(composer, composer.constant(rocket.c), rocket.c, x[ImplicitFormula::t]);
   const GraphNode offset = composer.constant(1.0 / rocket.acceleration);

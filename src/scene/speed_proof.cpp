@@ -128,7 +128,7 @@ Speeds speeds(const std::vector<MotionLevel>& levels, std::vector<HullBall> hull
     const double stretch = largest(scale.value);
     hull = stretched(hull, *level, scale);
     const double turning = turning_speed(*level, rotate, hull);
-    // Equation (38): of a point at ξ, |ct|/√(ξ² + c²t²).
+    // Equation (27): of a point at ξ, |ct|/√(ξ² + c²t²).
     const double path = level->rocket
                             ? c * flight_speed(*level->rocket, hull, std::max(std::abs(from), std::abs(to)))
                             : glm::length(position.rate);

@@ -1,4 +1,4 @@
-// That nothing of a body in motion reaches the speed of light: docs/physics.md equation (37).
+// That nothing of a body in motion reaches the speed of light: docs/physics.md equation (26).
 #pragma once
 
 #include <limits>
