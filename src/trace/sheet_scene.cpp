@@ -84,7 +84,10 @@ EyeView SheetScene::view_of(const Scene& scene, int eye) const {
       const Entry& entry = entries_[i];
       const FrameView& view = hub_->frames[static_cast<std::size_t>(entry.frame)];
       const double* o = result.frames[static_cast<std::size_t>(entry.frame)].origin;
-      const BoundingSphere sphere = surfaces(entry).bounds();
+      const LaneFrame& eye_frame = result.frames[static_cast<std::size_t>(entry.frame)];
+      const BoundingSphere sphere = delayed != 0 && !entry.extended
+                                        ? surfaces(entry).seen_from({o[0], o[1], o[2]}, eye_frame.time)
+                                        : surfaces(entry).bounds();
       LaneCone cone;
       cone.level = -infinity;
       double radius = 0.0;
