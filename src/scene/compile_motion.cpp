@@ -159,8 +159,9 @@ class MotionCompiler {
       high[static_cast<int>(i)] = range.upper + ball.radius;
       rests = rests && ball.path[i].constant();
     }
-    const bool bounded = std::isinf(ball.begins) && std::isfinite(glm::length(high - low)) &&
-                         glm::length(high - low) < greatest_composed;
+    // Errors of its points are told by the size of its bounds, which those of a thing that leaves are not.
+    constexpr double many_radii = 1e6;
+    const bool bounded = std::isinf(ball.begins) && glm::length(high - low) < many_radii * ball.radius;
     if (!bounded) {
       low = Vec3{-std::numeric_limits<double>::infinity()};
       high = -low;
