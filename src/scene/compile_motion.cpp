@@ -145,7 +145,8 @@ class MotionCompiler {
     if (!formula) return std::nullopt;
     SurfaceSet one;
     one.add(shape, Placement{});
-    const auto proof = prover_.prove(table, levels, hull_of(shape), offset_);
+    const TableView& in_motion = place_uses_time(*table.node()) ? table : object_;
+    const auto proof = prover_.prove(in_motion, levels, hull_of(shape), offset_);
     if (!proof) return std::nullopt;
     const MatterMotion::Body body = body_of(levels);
     const MatterMotion::Ball ball = ball_of(
