@@ -240,7 +240,8 @@ class MotionCompiler {
     if (!formula) return std::nullopt;
     SurfaceSet one;
     one.add(shape, Placement{});
-    const auto proof = prover_.prove(table, levels, hull_of(shape), offset_);
+    const TableView& in_motion = place_uses_time(c_.values.description, *table.node()) ? table : object_;
+    const auto proof = prover_.prove(in_motion, levels, hull_of(shape), offset_);
     if (!proof) return std::nullopt;
     const MatterMotion::Body body = body_of(levels);
     const MatterMotion::Ball ball =
@@ -259,8 +260,9 @@ class MotionCompiler {
       high[k] = std::min(path.upper + ball.radius, places.upper + 1e-12 * ball.radius);
       rests = rests && ball.path[i].constant();
     }
-    constexpr double far_away = 1e9;  // of what goes on forever, for all times; a box that large helps no one
-    const bool bounded = std::isinf(ball.begins) && glm::length(high - low) < far_away;
+    // Errors of its points are told by the size of its bounds, which those of a thing that leaves are not.
+    constexpr double many_radii = 1e6;
+    const bool bounded = std::isinf(ball.begins) && glm::length(high - low) < many_radii * ball.radius;
     if (!bounded) {
       low = Vec3{-std::numeric_limits<double>::infinity()};
       high = -low;
