@@ -96,6 +96,8 @@ Extended rapidity_at(Extended a, Extended b, Extended c) {
   return s + (y * exp(-s) - Extended(1.0));  // one step of Newton's
 }
 
+}  // namespace
+
 std::optional<ExtendedVec3> thrust_direction(const TableView& rocket) {
   const Vec3 along = rocket.vector("along");
   const double length = glm::length(along);
@@ -106,8 +108,6 @@ std::optional<ExtendedVec3> thrust_direction(const TableView& rocket) {
   rocket.error("along", "'along' is zero: it has no direction");
   return std::nullopt;
 }
-
-}  // namespace
 
 bool follow_path(Compilation& c, const TableView& camera) {
   if (has_motion(camera) || c.values.diagnostics.has_errors()) return false;
@@ -131,7 +131,7 @@ bool follow_path(Compilation& c, const TableView& camera) {
 
 bool fly(Compilation& c, const TableView& camera) {
   if (!camera.has_valid("rocket")) return false;
-  const TableView rocket = camera.table("rocket", "camera.rocket");
+  const TableView rocket = camera.table("rocket", "rocket");
   const auto along = rocket.complete() ? thrust_direction(rocket) : std::nullopt;
   if (!along) return true;
   // The frame in which it begins, at rest at `start`.

@@ -155,7 +155,7 @@ class Checker {
       case ValueKind::points:
         return numbers_.triples(node, key, form);
       case ValueKind::formula:
-        return numbers_.formula(node);
+        return form.count > 0 ? numbers_.formulas(node, key, form) : numbers_.formula(node);
       case ValueKind::choice:
         return choice(node, key);
       case ValueKind::choices:

@@ -29,6 +29,25 @@ void NumberCheck::formula(Node& node) {
   parse(node, *of_surfaces_, formula_coordinates);
 }
 
+void NumberCheck::formulas(Node& node, const Key& key, const ValueForm& form) {
+  if (node.array()->size() != static_cast<std::size_t>(form.count)) {
+    error(node.place, "'" + std::string(key.name) + "' must be " + form_words(form) + ", not " +
+                          std::to_string(node.array()->size()));
+    node.value = Invalid{};
+    return;
+  }
+  for (Node& element : *node.array()) {
+    if (std::holds_alternative<double>(element.value)) continue;
+    if (element.text() != nullptr) {
+      formula(element);
+      continue;
+    }
+    error(element.place,
+          "'" + std::string(key.name) + "' must be made of formulas, and this is " + kind_words(element));
+    element.value = Invalid{};
+  }
+}
+
 /// Makes the node's text an expression of `variables`, of which those from `first` on are the description's.
 void NumberCheck::parse(Node& node, const VariableNames& variables, std::size_t first) {
   // To look for the nearest name takes as long as there are names.

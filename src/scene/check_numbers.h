@@ -27,6 +27,8 @@ class NumberCheck {
   void triples(Node& node, const Key& key, const ValueForm& form);
   /// An expression of x, y, z and the description's variables, in this order (formula_variables).
   void formula(Node& node);
+  /// An array of them, numbers among them.
+  void formulas(Node& node, const Key& key, const ValueForm& form);
 
   /// For each variable, whether any expression so far uses it.
   [[nodiscard]] const std::vector<bool>& used() const { return used_; }

@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "aboard.h"
 #include "camera_motion.h"
 #include "compile_parts.h"
 #include "words.h"
@@ -123,7 +124,7 @@ void compile_camera(Compilation& c) {
   c.scene.camera.name = table.text("name");
   Vec3 position = table.vector("position");
   point_lens(table, position, c.values.diagnostics.error_count() == errors, c.scene.camera.lens);
-  if (!fly(c, table) && !follow_path(c, table)) {
+  if (!ride(c, table) && !fly(c, table) && !follow_path(c, table)) {
     const InertialFrame frame = rest_frame(c, table, position);
     expose(table, frame, position, c.scene);
   }

@@ -6,6 +6,9 @@
 #include <string>
 
 #include "backlight/expression/compose.h"
+#include "backlight/expression/enclosure.h"
+#include "backlight/surface/matter_motion.h"
+#include "motion_levels.h"
 #include "own_time.h"
 
 namespace backlight {
@@ -101,6 +104,69 @@ bool makes_sense(const TableView& table, std::string_view key, const ImplicitFor
   return true;
 }
 
+// Of x, y, z and the matter's own t.
+Expression bound(Compilation& c, const Node& written) {
+  if (const auto* number = std::get_if<double>(&written.value)) return parsed(number_text(*number), {}, {});
+  return in_own_time(c.values, std::get<Expression>(written.value));
+}
+
+// |v| < c at all points of the bounds where the surface may be, whenever: by intervals over pieces of the
+// box.
+bool is_slower_than_light(const MatterMotion::Map& velocity, double c, const ImplicitFormula& f,
+                          const Vec3& low, const Vec3& high, int depth) {
+  constexpr double always = 1e15;
+  const Interval time{-always, always, Continuity::continuous};
+  const Interval value = f.range(low, high, time);
+  if (value.lower > 0.0 || value.upper < 0.0) return true;
+  const std::array<Interval, 4> box{Interval{low.x, high.x, Continuity::continuous},
+                                    Interval{low.y, high.y, Continuity::continuous},
+                                    Interval{low.z, high.z, Continuity::continuous}, time};
+  double square = 0.0;
+  for (const Expression& component : velocity) {
+    const Interval range = enclose(component.tape(), box);
+    const double size = std::max(std::abs(range.lower), std::abs(range.upper));
+    square +=
+        range.continuity == Continuity::continuous ? size * size : std::numeric_limits<double>::infinity();
+  }
+  if (square < c * c) return true;
+  if (depth == 0) return false;
+  int axis = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (high[i] - low[i] > high[axis] - low[axis]) axis = i;
+  }
+  const double middle = 0.5 * low[axis] + 0.5 * high[axis];
+  Vec3 below = high, above = low;
+  below[axis] = above[axis] = middle;
+  return is_slower_than_light(velocity, c, f, low, below, depth - 1) &&
+         is_slower_than_light(velocity, c, f, above, high, depth - 1);
+}
+
+std::shared_ptr<const MatterMotion> given_motion(Compilation& c, const TableView& table,
+                                                 const ImplicitFormula& f, const FormulaBounds& bounds) {
+  if (!table.is_sound("matter_velocity")) return {};
+  const NodeArray& written = *table.node_of("matter_velocity")->array();
+  const MatterMotion::Map velocity{bound(c, written[0]), bound(c, written[1]), bound(c, written[2])};
+  constexpr int deepest = 18;
+  if (!is_slower_than_light(velocity, c.scene.c, f, bounds.low, bounds.high, deepest)) {
+    table.error("matter_velocity",
+                "matter on the surface cannot be shown to be slower than light, c = " +
+                    number_text(c.scene.c) + ", within the bounds",
+                "tighter bounds help where it is only fast far away");
+    return {};
+  }
+  return std::make_shared<const MatterMotion>(velocity, clock_of(c));
+}
+
+void warn_of_still_matter(const TableView& table, std::string_view key) {
+  const ImageValues& values = table.values();
+  values.diagnostics.warning(
+      values.description.span(table.place(key)),
+      "the surface depends on t, and its colours are those of matter at rest, through which it "
+      "passes like a wave",
+      "matter_velocity = [vx, vy, vz] says how the matter moves; position, rotate and scale "
+      "that depend on t move a body");
+}
+
 std::optional<Shape> finished(Compilation& c, const TableView& table, std::string_view key,
                               const std::shared_ptr<const ImplicitFormula>& formula,
                               const std::optional<FormulaBounds>& bounds,
@@ -110,7 +176,7 @@ std::optional<Shape> finished(Compilation& c, const TableView& table, std::strin
                 "write the two corners of a box to show it in: bounds = [[-2, -2, -2], [2, 2, 2]]");
     return std::nullopt;
   }
-  ImplicitOptions options{read_unresolved(table), 1.0 / c.scene.c, blend, RootFinder::interval};
+  ImplicitOptions options{read_unresolved(table), 1.0 / c.scene.c, blend, {}, RootFinder::interval};
   if (const std::string wrong = problem(implicit(formula, bounds->low, bounds->high, options));
       !wrong.empty()) {
     table.error("bounds", wrong,
@@ -119,6 +185,12 @@ std::optional<Shape> finished(Compilation& c, const TableView& table, std::strin
   }
   if (!makes_sense(table, key, *formula, *bounds)) return std::nullopt;
   options.finder = c.cache.root_finder(*formula, *bounds);
+  if (table.node_of("matter_velocity") != nullptr) {
+    options.motion = given_motion(c, table, *formula, *bounds);
+    if (!options.motion) return std::nullopt;
+  } else if (formula->uses_time()) {
+    warn_of_still_matter(table, key);
+  }
   return implicit(formula, bounds->low, bounds->high, options);
 }
 

@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "compile_motion.h"
 #include "compile_parts.h"
 
 namespace backlight {
@@ -50,6 +51,7 @@ void compile_light(Compilation& c, const Node& node) {
   const RestPlace place = c.frames.rest_of(table, table.vector("position"));
   light.frame = place.frame;
   light.position = place.position;
+  if (is_in_motion(table)) light.motion = path_of(c, table, place.frame);
   light.shadows = table.boolean("shadows");
   if (const Node* type = table.node_of("type"); type != nullptr && !type->valid()) return;
   const std::string type = table.text("type");

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "backlight/base/memory.h"
+#include "compile_motion.h"
 #include "compile_shapes.h"
 
 namespace backlight {
@@ -24,6 +25,11 @@ struct Lattice {
   [[nodiscard]] std::size_t copies() const {
     return static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]) *
            static_cast<std::size_t>(count[2]);
+  }
+  /// Of a copy, x counting fastest.
+  [[nodiscard]] Vec3 offset(std::size_t copy) const {
+    const auto nx = static_cast<std::size_t>(count[0]), ny = static_cast<std::size_t>(count[1]);
+    return Vec3{double(copy % nx), double(copy / nx % ny), double(copy / nx / ny)} * step;
   }
 };
 
@@ -107,6 +113,7 @@ class ObjectCompiler {
     const auto group_for = [&](int object) {
       const auto next = static_cast<int>(plan_.groups.size());
       const TableView keys = table(object);
+      if (is_in_motion(keys)) return next;
       if (!has_motion(keys)) {
         c_.frames.check_at_rest(keys);
         return named.emplace(keys.text("frame"), next).first->second;
@@ -122,6 +129,8 @@ class ObjectCompiler {
       plan_.group_of.push_back(group);
       ObjectGroup& its = plan_.groups[static_cast<std::size_t>(group)];
       its.changes = its.changes || c_changes || surfaces_change(i);
+      its.apart = is_in_motion(table(i));
+      if (its.apart && !has_motion(table(i))) its.frame = table(i).text("frame");
     }
     for (const auto& [name, group] : named) plan_.groups[static_cast<std::size_t>(group)].frame = name;
     for (const auto& [motion, group] : moving) plan_.groups[static_cast<std::size_t>(group)].motion = motion;
@@ -158,7 +167,8 @@ class ObjectCompiler {
       std::optional<InertialFrame> motion = group.motion;
       if (group.follows >= 0) motion = c_.frames.own_motion(table(group.follows));
       const std::string name = motion || group.frame.empty() ? "" : group.frame;
-      const int frame = c_.frames.index_of(motion ? *motion : c_.frames.named(group.frame), name);
+      const InertialFrame& its = motion ? *motion : c_.frames.named(group.frame);
+      const int frame = group.apart ? c_.frames.apart(its, name) : c_.frames.index_of(its, name);
       frame_of_group_.push_back(static_cast<std::size_t>(frame));
       moves_.push_back(motion.has_value());
       frames_.resize(std::max(frames_.size(), frame_of_group_.back() + 1));
@@ -194,10 +204,25 @@ class ObjectCompiler {
     if (!builder) builder = std::make_unique<FrameBuilder>();
     if (!leave_room(keys, lattice)) return;
     const auto first = static_cast<int>(builder->surfaces.size());
+    if (plan_.groups[group].apart) {
+      return add_in_motion(index, keys, static_cast<int>(frame_of_group_[group]), *compiled, lattice,
+                           *builder);
+    }
     builder->add_copies(index, compiled->shape, placement, lattice, rotate, c_.request.outline,
                         keys.boolean("casts_shadow"));
     if (!is_infinite(compiled->shape) && !(builder->surfaces.bounds(first).radius <= greatest_composed)) {
       keys.error("shape", "it is larger than " + number_text(greatest_composed) + ", all scales together");
+    }
+  }
+
+  void add_in_motion(int index, const TableView& keys, int frame, const CompiledShape& compiled,
+                     const Lattice& lattice, FrameBuilder& builder) {
+    for (std::size_t copy = 0; copy < lattice.copies(); ++copy) {
+      const SolidTree* solid = compiled.solid ? &*compiled.solid : nullptr;
+      const auto moving = put_in_motion(c_, keys, frame, compiled.shape, solid, lattice.offset(copy));
+      if (!moving) return;
+      builder.surfaces.add(moving->shape, moving->placement, keys.boolean("casts_shadow"));
+      builder.object_of_surface.push_back(index);
     }
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compile_formulas.h"
+#include "own_time.h"
 
 namespace backlight {
 namespace {
@@ -51,18 +52,18 @@ class ShapeReader {
     if (!operation) {
       auto shape = single(table);
       if (!shape) return std::nullopt;
-      return CompiledShape{*std::move(shape), {}};
+      return CompiledShape{*std::move(shape), {}, {}};
     }
     if (is_blend(table)) {
       auto shape = blend(table, material, 1);
       if (!shape) return std::nullopt;
-      return CompiledShape{*std::move(shape), members_};
+      return CompiledShape{*std::move(shape), members_, {}};
     }
     if (has_keys_of_blends(table)) return std::nullopt;
     SolidTree tree;
     tree.operation = *operation;
     if (!parts(table, material, 1, tree)) return std::nullopt;
-    return CompiledShape{csg(tree), members_};
+    return CompiledShape{csg(tree), members_, tree};
   }
 
  private:
@@ -232,7 +233,17 @@ Vec3 read_scale(const TableView& table) {
 
 std::optional<CompiledShape> compile_shape(Compilation& c, const TableView& object, Materials& materials,
                                            int material) {
-  return ShapeReader(c, materials).object(object, material);
+  auto compiled = ShapeReader(c, materials).object(object, material);
+  const Node* visible = object.node_of("visible");
+  if (!compiled || visible == nullptr) return compiled;
+  const auto* formula = std::get_if<Expression>(&visible->value);
+  if (formula != nullptr) {
+    compiled->shape.presence =
+        std::make_shared<const Presence>(Presence{in_own_time(c.values, *formula), 1.0 / c.scene.c});
+  } else if (object.number("visible") <= 0.0) {
+    object.error("visible", "'visible' is never positive: the object is never there", "remove the object");
+  }
+  return compiled;
 }
 
 }  // namespace backlight

@@ -13,6 +13,7 @@ namespace backlight {
 struct CompiledShape {
   Shape shape;
   std::vector<int> member_materials;  ///< by SurfacePoint::member; empty: that of the object
+  std::optional<SolidTree> solid;     ///< what `shape` was made of, if of several
 };
 
 /// The shape of an object whose own material is `material`; nothing when something is wrong with it, which

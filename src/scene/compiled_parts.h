@@ -33,6 +33,7 @@ struct ObjectGroup {
   std::string frame;                    ///< its name, or empty
   std::optional<InertialFrame> motion;  ///< of their own
   int follows = -1;                     ///< the object whose velocity depends on the time
+  bool apart = false;                   ///< one that moves in its frame, and has an entry of its own
   bool changes = false;                 ///< whether any surface depends on the time
 
   /// The surfaces of this group, and of `others` where their frames are equal: those of the last image in

@@ -57,7 +57,7 @@ class HiddenLamps {
   void run() {
     for (std::size_t i = 0; i < c_.scene.lights.size(); ++i) {
       const Light& light = c_.scene.lights[i];
-      if (light.kind == LightKind::point && light.shadows) look_around(i, light);
+      if (light.kind == LightKind::point && light.shadows && !light.motion) look_around(i, light);
     }
   }
 
@@ -67,7 +67,8 @@ class HiddenLamps {
   void look_around(std::size_t index, const Light& light) {
     const InertialFrame& own = c_.scene.frames[static_cast<std::size_t>(light.frame)].motion;
     for (const SceneFrame& frame : c_.scene.frames) {
-      if (frame.surfaces->size() == 0 || frame.motion.celerity != own.celerity) continue;
+      const bool moves = frame.motion.celerity != own.celerity || frame.surfaces->any_moves();
+      if (frame.surfaces->size() == 0 || moves) continue;
       const ExtendedVec3 apart = to_frame(frame.motion, own.origin).x;
       look_around_in(frame, index, frame.motion == own ? light.position : light.position + apart.rounded());
     }

@@ -81,6 +81,8 @@ void add_motion(std::vector<Key>& keys);
 
 /// Motion, or the name of the frame in which a thing is at rest.
 void add_motion_or_frame(std::vector<Key>& keys);
+/// `rocket` of an object or a light.
+void add_rocket(std::vector<Key>& keys);
 
 std::vector<KeyTable> picture_tables();  ///< keys_picture.cpp: the top, params, animation, film, camera
 std::vector<KeyTable> matter_tables();   ///< keys_matter.cpp: frame, material, object

@@ -134,4 +134,10 @@ void add_motion_or_frame(std::vector<Key>& keys) {
   add_motion(keys);
 }
 
+void add_rocket(std::vector<Key>& keys) {
+  keys.push_back(structured("rocket", {{ValueKind::table, 0, "rocket"}},
+                            "It accelerates: at rest at `position` at time 0 of its frame, or of the frame "
+                            "that its velocity makes."));
+}
+
 }  // namespace backlight::key_builders

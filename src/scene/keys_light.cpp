@@ -42,6 +42,7 @@ KeyTable light() {
                   "Y of all of it together, at rest, is the strength.")},
       "type"};
   add_motion_or_frame(table.keys);
+  add_rocket(table.keys);
   return table;
 }
 

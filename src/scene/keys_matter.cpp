@@ -160,9 +160,15 @@ KeyTable object() {
   table.keys.push_back(boolean("casts_shadow", true,
                                "Whether it is in the way of light, its own surface's included. False: it "
                                "is seen and lit like any other, and hides no lamp: the bulb about one."));
+  table.keys.push_back(own(number(
+      "visible", Nothing{}, "",
+      "It is there while this is positive: a flash, a door that shuts, a digit of a clock. Without it, "
+      "it is always there.",
+      {})));
   table.keys.push_back(structured("repeat", {{ValueKind::table, 0, "object.repeat"}},
                                   "Copies of it, all at rest in the same frame and of the same `objectId`."));
   add_motion_or_frame(table.keys);
+  add_rocket(table.keys);
   return table;
 }
 
@@ -268,6 +274,18 @@ std::vector<KeyTable> shapes() {
               "succeeds for formulas of + - * /, powers, roots, abs, min and max that grow in every "
               "direction, also with sin, cos, atan, tanh, floor and mod added. What cannot be proved is an "
               "error."),
+       {"matter_velocity",
+        {{ValueKind::formula, 3}},
+        Nothing{},
+        "length/time",
+        "Which matter the surface of an `f` of `t` is: the velocity of the matter at x, y, z at `t`, in its "
+        "own "
+        "coordinates. Its colours, brightness, light and own time are those of matter that moves so. Without "
+        "it the "
+        "matter is at rest, and the surface goes through it like a wave.",
+        {},
+        {},
+        Clock::own},
        unresolved()});
   const auto solid = [&](std::string_view name, std::string_view meaning, std::vector<Key> more) {
     std::vector<Key> keys{

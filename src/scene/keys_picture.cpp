@@ -133,9 +133,13 @@ KeyTable camera() {
            "The camera's own (proper) time of the exposure, with a velocity or a `rocket`; else the time of "
            "its frame."),
        structured(
-           "rocket", {{ValueKind::table, 0, "camera.rocket"}},
+           "rocket", {{ValueKind::table, 0, "rocket"}},
            "A flight at constant proper acceleration, which begins at its own time 0 at `position`, at "
            "rest in its `frame` or with its velocity."),
+       text("aboard",
+            "The name of an object that it rides with: `position`, `look_at`, `direction` and `up` are then "
+            "in the object's own coordinates, and turn with it; `time` is the camera's own time, which is 0 "
+            "with the time of the object's frame."),
        number("world_time", Nothing{}, "s", "The world's time of the exposure, instead of `time`."),
        choice("projection", std::string("perspective"),
               {"perspective", "equirectangular", "mercator", "fisheye"},
@@ -158,10 +162,13 @@ KeyTable camera() {
 
 KeyTable rocket() {
   return {
-      "camera.rocket",
-      "[camera] rocket = { ... }",
-      "A flight at constant proper acceleration (hyperbolic motion): those aboard weigh the same all the "
-      "time. Before its own time 0 it decelerates in the same way.",
+      "rocket",
+      "rocket = { ... }",
+      "A flight at constant proper acceleration (hyperbolic motion), of a camera, an object or a light: "
+      "those "
+      "aboard weigh the same all the time. It is at rest at its own time 0, and decelerates before that. An "
+      "object keeps its shape for those aboard (Born's rigid motion), so that its rear accelerates more than "
+      "its front: `acceleration` is that of the point at `position`.",
       {number("acceleration", Required{}, "length/time²", "What an accelerometer aboard shows.", above(0)),
        numbers("along", 3, Required{}, "",
                "The direction of the thrust, in the axes of the frame in which the flight begins; of any "

@@ -140,12 +140,15 @@ const InertialFrame& Frames::named(const std::string& name) const {
 
 int Frames::index_of(const InertialFrame& frame, const std::string& name) {
   const auto [there, added] = indices_.emplace(frame, static_cast<int>(scene_frames_.size()));
-  if (added) {
-    scene_frames_.emplace_back();
-    scene_frames_.back().name = name;
-    scene_frames_.back().motion = frame;
-  }
+  if (added) apart(frame, name);
   return there->second;
+}
+
+int Frames::apart(const InertialFrame& frame, const std::string& name) {
+  scene_frames_.emplace_back();
+  scene_frames_.back().name = name;
+  scene_frames_.back().motion = frame;
+  return static_cast<int>(scene_frames_.size()) - 1;
 }
 
 RestPlace Frames::rest_of(const TableView& thing, const Vec3& position) {

@@ -58,6 +58,9 @@ class Frames {
   /// The index of a frame among the scene's; `name` is for one that is new there.
   int index_of(const InertialFrame& frame, const std::string& name);
 
+  /// The index of one more of this frame, for a thing that moves in it: its bounds are another matter.
+  int apart(const InertialFrame& frame, const std::string& name);
+
  private:
   void define(const std::string& name, const Node& written);
   ExtendedVec3 own_celerity(const TableView& thing);

@@ -59,12 +59,15 @@ std::string shifting_motion(const Scene& scene, const Shifts& shown) {
   }
   for (const SceneFrame& frame : scene.frames) {
     if (frame.object_of_surface.empty()) continue;
-    if (shown.to_camera && moves(frame.motion.celerity, camera)) {
+    const bool turns = frame.surfaces->any_moves();
+    if (shown.to_camera && (turns || moves(frame.motion.celerity, camera))) {
       return name_of(scene, frame) + " moves relative to the camera";
     }
     for (const Light& light : scene.lights) {
       if (!shown.from_light || light.kind == LightKind::ambient) continue;
-      if (!moves(celerity_of(scene, light.frame), frame.motion.celerity)) continue;
+      const bool goes =
+          turns || light.motion || moves(celerity_of(scene, light.frame), frame.motion.celerity);
+      if (!goes) continue;
       return name_of(scene, light) + " and " + name_of(scene, frame) + " move relative to each other";
     }
   }

@@ -69,6 +69,7 @@ Json form_schema(const Key& key, const ValueForm& form) {
     case ValueKind::choices:
       return list_of(std::move(Json::object().add("enum", Json::array(texts(key.choices)))));
     case ValueKind::formula:
+      return form.count > 0 ? array_of(number_schema(key.range), form.count) : of_type("string");
     case ValueKind::text:
     case ValueKind::path:
     case ValueKind::reference:

@@ -15,8 +15,9 @@ bool matches(const ValueForm& form, const Node& node) {
     case ValueKind::paths:
     case ValueKind::tables:
       return node.array() != nullptr;
-    case ValueKind::text:
     case ValueKind::formula:
+      return form.count > 0 ? node.array() != nullptr : node.text() != nullptr;
+    case ValueKind::text:
     case ValueKind::choice:
     case ValueKind::path:
     case ValueKind::reference:
@@ -43,7 +44,8 @@ std::string form_words(const ValueForm& form) {
     case ValueKind::points:
       return "an array of " + std::to_string(form.count) + " points";
     case ValueKind::formula:
-      return "a formula in a string";
+      return form.count > 0 ? "an array of " + std::to_string(form.count) + " formulas"
+                            : "a formula in a string";
     case ValueKind::text:
     case ValueKind::choice:
       return "a string";

@@ -54,6 +54,8 @@ class TableView {
   [[nodiscard]] bool has_valid(std::string_view key) const;
   /// Whether nothing within the key's value has been wrong so far; true of a default.
   [[nodiscard]] bool is_sound(std::string_view key) const;
+  /// The table as written, or null.
+  [[nodiscard]] const Node* node() const { return node_; }
   /// The written value, or null.
   [[nodiscard]] const Node* node_of(std::string_view key) const;
   /// Where the key's value stands, or the table if it is not written.

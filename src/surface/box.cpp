@@ -30,10 +30,16 @@ void texture(const Shape& shape, int part, LocalPoint& point) {
   point.v = axis == 1 ? 0.5 + side * f.z : 0.5 - f.y;
 }
 
+int part_at(const Shape& shape, const Vec3& place) {
+  const Vec3 f = glm::abs(place / size_of(shape));
+  const int axis = f.x >= f.y && f.x >= f.z ? 0 : f.y >= f.z ? 1 : 2;
+  return 2 * axis + (place[axis] < 0.0 ? 0 : 1);
+}
+
 }  // namespace
 
 const ShapeMethods box_methods =
-    form_methods<BoxForm, texture>(ShapeKind::box, "box", problem_of, bounding_radius, half_extent);
+    form_methods<BoxForm, texture>(ShapeKind::box, "box", problem_of, bounding_radius, half_extent, part_at);
 
 Shape box(Vec3 size) {
   return {ShapeKind::box, {size.x, size.y, size.z}, {}, {}, {}};

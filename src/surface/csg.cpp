@@ -94,8 +94,8 @@ void find_points(const PlacedSurface& leaf, TextureCoordinates wanted, OnLeaf& o
 }
 
 /// A leaf's point as one of the whole.
-LocalPoint of_whole(const Solid::Leaf& leaf, const LocalPoint& of_leaf, bool turned) {
-  const SurfacePoint point = surface_point(leaf.surface, of_leaf);
+LocalPoint of_whole(const Solid::Leaf& leaf, const LocalPoint& of_leaf, bool turned, double time) {
+  const SurfacePoint point = surface_point(leaf.surface, of_leaf, time);
   LocalPoint result;
   result.position = point.position;
   result.gradient = leaf.subtracted != turned ? -point.normal : point.normal;
@@ -103,6 +103,9 @@ LocalPoint of_whole(const Solid::Leaf& leaf, const LocalPoint& of_leaf, bool tur
   result.v = point.v;
   result.error = point.error_bound;
   result.member = leaf.surface.shape.blend ? point.member : leaf.member;
+  result.moves = point.moves;
+  result.velocity = point.velocity;
+  result.own_time = point.own_time;
   return result;
 }
 
@@ -128,7 +131,8 @@ void points_of(const Shape& shape, const LocalLines& lines, std::span<const Cros
     find_points(leaf.surface, wanted, on);
     for (std::size_t k = 0; k < on.lines.count; ++k) {
       const std::size_t i = on.index[k];
-      points[i] = of_whole(leaf, on.points[k], (crossings[i].part & is_turned) != 0);
+      const double time = on.lines.clock_start[k] + on.crossings[k].t * on.lines.clock_rate[k];
+      points[i] = of_whole(leaf, on.points[k], (crossings[i].part & is_turned) != 0, time);
     }
   }
 }

@@ -271,7 +271,8 @@ bool Sweep::coincide(const Event& a, const Event& b) {
 
 /// The part's surface point of an event, in the coordinates of the whole.
 SurfacePoint Sweep::point(const Event& event) {
-  return surface_point(surface(event.leaf), part(event.leaf).line, event.crossing);
+  const PlacedSurface& leaf = surface(event.leaf);
+  return placed_point(leaf, methods(leaf.shape).point(leaf.shape, part(event.leaf).line, event.crossing));
 }
 
 }  // namespace backlight

@@ -60,12 +60,23 @@ void texture(const Shape& shape, int part, LocalPoint& point) {
   }
 }
 
+/// A place on the side is as far from the slanted line as it is from the caps, or farther out.
+int part_at(const Shape& shape, const Vec3& place) {
+  const auto [bottom, top, height] = frustum_of(shape);
+  const double up = place.y / height + 0.5;
+  const double slope = std::hypot(height, top - bottom);
+  const double aside =
+      std::abs(std::hypot(place.x, place.z) - (bottom + (top - bottom) * up)) * height / slope;
+  const double to_cap = height * std::min(std::abs(up), std::abs(1.0 - up));
+  return aside <= to_cap ? 0 : up < 0.5 ? 1 : 2;
+}
+
 }  // namespace
 
 const ShapeMethods cylinder_methods = form_methods<FrustumForm<true>, texture>(
-    ShapeKind::cylinder, "cylinder", cylinder_problem, bounding_radius, half_extent);
+    ShapeKind::cylinder, "cylinder", cylinder_problem, bounding_radius, half_extent, part_at);
 const ShapeMethods cone_methods = form_methods<FrustumForm<false>, texture>(
-    ShapeKind::cone, "cone", cone_problem, bounding_radius, half_extent);
+    ShapeKind::cone, "cone", cone_problem, bounding_radius, half_extent, part_at);
 
 Shape cylinder(double radius, double height) {
   return {ShapeKind::cylinder, {radius, height}, {}, {}, {}};

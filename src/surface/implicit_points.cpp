@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "backlight/surface/implicit_surface.h"
@@ -25,11 +24,6 @@ int member_at(const Shape& shape, const Vec3& p, double time) {
     member = shape.blend->members[i];
   }
   return member;
-}
-
-/// From 0 at +y to 1 at -y.
-double latitude(const Vec3& p) {
-  return std::atan2(std::hypot(p.x, p.z), p.y) * std::numbers::inv_pi;
 }
 
 bool has_direction(const Vec3& gradient) {
@@ -159,10 +153,7 @@ void implicit_points(const Shape& shape, const LocalLines& lines, std::span<cons
     point = LocalPoint{};
     point.position = line.at(crossing.t);
     point.gradient = -line.direction;
-    if (wanted == TextureCoordinates::wanted) {
-      point.u = longitude(point.position.x, point.position.z);
-      point.v = latitude(point.position);
-    }
+    if (wanted == TextureCoordinates::wanted) texture_of_body(shape, point);
     const double time = time_at(line, crossing.t);
     if (shape.blend) point.member = member_at(shape, point.position, time);
     if (crossing.part >= implicit_caps) {

@@ -8,6 +8,7 @@
 #include "convex.h"
 #include "implicit_points.h"
 #include "implicit_roots.h"
+#include "moving_ball.h"
 #include "shape_table.h"
 #include "solid_walk.h"
 
@@ -26,9 +27,15 @@ Vec3 high_of(const Shape& shape) {
   return implicit_high(shape);
 }
 
+/// Whether the bounds go along a path.
+bool goes_away(const Shape& shape) {
+  return shape.motion && shape.motion->ball();
+}
+
 std::string problem_of(const Shape& shape) {
   if (!shape.formula) return "a formula is missing";
   if (shape.formula->expression().constant()) return "the formula is a constant: it makes no surface";
+  if (goes_away(shape)) return {};
   for (int i = 0; i < 3; ++i) {
     const double low = low_of(shape)[i];
     const double high = high_of(shape)[i];
@@ -50,6 +57,7 @@ double extent_of(const Shape& shape, const Extent& e) {
 
 /// The part of a line within bounds that are wider by `room`.
 Stretch inside_bounds(const Shape& shape, const LocalLine& line, const Vec3& room = Vec3{0.0}) {
+  if (goes_away(shape)) return inside_ball(*shape.motion, line);
   const Vec3 centre = 0.5 * low_of(shape) + 0.5 * high_of(shape);
   const Vec3 half = 0.5 * high_of(shape) - 0.5 * low_of(shape) + room;
   LaneStretch<Lanes<1>> stretch;
@@ -215,11 +223,12 @@ Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high) {
 
 Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high,
                const ImplicitOptions& options) {
-  Shape shape{ShapeKind::implicit, {low.x, low.y, low.z, high.x, high.y, high.z}, {}, {}, {}};
+  Shape shape{ShapeKind::implicit, {low.x, low.y, low.z, high.x, high.y, high.z}, {}, {}, {}, {}};
   shape.values[time_scale] = options.seconds_per_length;
   shape.values[skips] = options.unresolved == UnresolvedRoots::skip ? 1.0 : 0.0;
   shape.formula = std::move(f);
   shape.blend = options.blend;
+  shape.motion = options.motion;
   if (!problem_of(shape).empty()) return shape;
   const RootFinder finder = options.finder ? *options.finder : choose_root_finder(*shape.formula, low, high);
   shape.values[implicit_value::finder] = static_cast<double>(finder);

@@ -36,7 +36,8 @@ LocalPoint point_by(const Shape& shape, const LocalLine& line, const Crossing& c
 template <class Form, void (*texture)(const Shape&, int part, LocalPoint&)>
 constexpr ShapeMethods form_methods(ShapeKind kind, const char* name, std::string (*problem)(const Shape&),
                                     double (*bounding_radius)(const Shape&, const Vec3&),
-                                    double (*half_extent)(const Shape&, const Extent&)) {
+                                    double (*half_extent)(const Shape&, const Extent&),
+                                    int (*part_at)(const Shape&, const Vec3&) = nullptr) {
   return {.kind = kind,
           .name = name,
           .encloses = Form::encloses,
@@ -47,7 +48,8 @@ constexpr ShapeMethods form_methods(ShapeKind kind, const char* name, std::strin
           .half_extent = half_extent,
           .crossings = crossings_by<Form>,
           .point = point_by<Form, texture>,
-          .texture = texture};
+          .texture = texture,
+          .part_at = part_at};
 }
 
 }  // namespace backlight

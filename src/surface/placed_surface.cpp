@@ -23,7 +23,8 @@ Extent extent_along(const LaneMatrix& m, int i) {
 PlacedSurface place(const Shape& shape, const Placement& placement) {
   PlacedSurface surface{shape, {}};
   LaneSurface& lanes = surface.lanes;
-  lanes.kind = shape.kind;
+  // What comes and goes is asked crossing by crossing, whatever its form.
+  lanes.kind = shape.presence ? ShapeKind::implicit : shape.kind;
   lanes.aligned = placement.local_from_rest() == Mat3(1.0) && placement.rest_from_local() == Mat3(1.0);
   const Vec3 scale = glm::abs(placement.scale());
   for (int c = 0; c < 3; ++c) {

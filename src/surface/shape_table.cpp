@@ -37,6 +37,11 @@ LocalPoint point_of_one(const Shape& shape, const LocalLine& line, const Crossin
   return point;
 }
 
+bool Presence::at(double own_time) const {
+  const std::array<double, 4> values{seconds_per_length * own_time, 0.0, 0.0, 0.0};
+  return of_own_time.evaluate(values) > 0.0;
+}
+
 std::string unless_positive(const char* name, double value) {
   return value > 0.0 && std::isfinite(value) ? std::string{}
                                              : std::string(name) + " must be positive and finite";
@@ -54,6 +59,12 @@ void texture_of_disc(double radius, double side, LocalPoint& point) {
   const double scale = 0.5 / radius;
   point.u = 0.5 + point.position.x * scale;
   point.v = 0.5 + side * point.position.z * scale;
+}
+
+void texture_of_body(const Shape& body, LocalPoint& point) {
+  const ShapeMethods& has = methods(body);
+  if (has.texture == nullptr) return sphere_methods.texture(body, 0, point);
+  has.texture(body, has.part_at != nullptr ? has.part_at(body, point.position) : 0, point);
 }
 
 void texture_of_place(const Shape& /*shape*/, int /*part*/, LocalPoint& point) {

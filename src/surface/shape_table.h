@@ -55,6 +55,10 @@ struct LocalPoint {
   double error = 0.0;    ///< of the position, beyond rounding of the coordinates
   int member = 0;        ///< of a solid made of several: which of them
   bool is_unit = false;  ///< whether the gradient's length is 1, to within rounding
+  // Of matter that is not at rest in the local coordinates: as of SurfacePoint.
+  bool moves = false;
+  Vec3 velocity{0.0};
+  double own_time = 0.0;
 };
 
 /// Whether a point's u and v are to be computed; else they are 0.
@@ -104,8 +108,10 @@ struct ShapeMethods {
   /// that is asked of the first crossings. A shape has it if it has first_crossings.
   void (*blocks)(const Shape&, const LocalLines&, double lambda_min, double lambda_max,
                  std::span<bool>) = nullptr;
-  /// Fills u and v of a point of a face, where only its place is known; null: `point` and `points` do.
+  /// Fills u and v of a point of a face, where only its place is known.
   void (*texture)(const Shape&, int part, LocalPoint&) = nullptr;
+  /// Which face a place on the surface is on, to within rounding; null: there is but one.
+  int (*part_at)(const Shape&, const Vec3&) = nullptr;
 };
 
 /// The row of a kind.
@@ -140,6 +146,10 @@ double longitude(double x, double z);
 
 /// Texture coordinates of a disc of `radius` that faces up (side = 1) or down (side = -1).
 void texture_of_disc(double radius, double side, LocalPoint& point);
+
+/// The texture coordinates of a point of a body's surface, where only its place is known: longitude and
+/// latitude where it has none of its own.
+void texture_of_body(const Shape& body, LocalPoint& point);
 
 /// u = x, v = z.
 void texture_of_place(const Shape& shape, int part, LocalPoint& point);

@@ -10,7 +10,10 @@ namespace backlight {
 /// `crossing`: one that the shape reported for the local line.
 SurfacePoint surface_point(const PlacedSurface& surface, const LocalLine& line, const Crossing& crossing);
 
-/// The same of a point in local coordinates.
-SurfacePoint surface_point(const PlacedSurface& surface, const LocalPoint& point);
+/// A point in local coordinates, but for what the surface's motion says of it.
+SurfacePoint placed_point(const PlacedSurface& surface, const LocalPoint& point);
+
+/// The same with that, at this time of the frame.
+SurfacePoint surface_point(const PlacedSurface& surface, const LocalPoint& point, double time);
 
 }  // namespace backlight

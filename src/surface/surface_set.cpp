@@ -4,8 +4,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "csg_solid.h"
 #include "hierarchy.h"
 #include "local_line.h"
+#include "presence.h"
 #include "shape_table.h"
 #include "surface_point.h"
 #include "walk.h"
@@ -23,6 +25,7 @@ Hit first_of(const Crossings& found, const LocalLine& line, int surface) {
 }
 
 Hit first_crossing(const PlacedSurface& surface, int index, const RestRay& ray) {
+  if (surface.shape.presence) return first_present(surface, index, local_line(ray, surface));
   if (surface.shape.kind == ShapeKind::plane) {
     const double lambda = plane_lambda(surface.lanes, one_lane(ray)).v;
     return lambda > 0.0 && lambda < infinite ? Hit{lambda, index} : Hit{};
@@ -34,7 +37,7 @@ Hit first_crossing(const PlacedSurface& surface, int index, const RestRay& ray) 
 /// Whether the ray meets the surface at a λ in (0, lambda_max).
 bool is_blocked_by(const PlacedSurface& surface, const RestRay& ray, double lambda_max) {
   const auto blocks = methods(surface.shape).blocks;
-  if (blocks == nullptr) return first_crossing(surface, 0, ray).lambda < lambda_max;
+  if (blocks == nullptr || surface.shape.presence) return first_crossing(surface, 0, ray).lambda < lambda_max;
   LocalLines line;
   line.add(local_line(ray, surface));
   bool result = false;
@@ -83,6 +86,21 @@ bool SurfaceSet::is_convex(int surface) const {
 
 bool SurfaceSet::is_flat(int surface) const {
   return methods(shape(surface)).is_flat;
+}
+
+bool SurfaceSet::moves(int surface) const {
+  const Shape& its = shape(surface);
+  if (its.motion) return true;
+  return its.solid && std::ranges::any_of(its.solid->leaves(), [](const Solid::Leaf& leaf) {
+           return leaf.surface.shape.motion != nullptr;
+         });
+}
+
+bool SurfaceSet::any_moves() const {
+  for (int i = 0; i < static_cast<int>(surfaces_.size()); ++i) {
+    if (moves(i)) return true;
+  }
+  return false;
 }
 
 double SurfaceSet::opaque_radius(int surface) const {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "backlight/surface/surface_set.h"
+#include "presence.h"
 #include "shape_table.h"
 #include "surface_kernels.h"
 #include "surface_point.h"
@@ -42,7 +43,14 @@ bool nearest_of(const void* set, int index, std::uint64_t rays, const RaySheet& 
   const PlacedSurface& surface = static_cast<const PlacedSurface*>(set)[index];
   const Near near(surface, sheet, rays);
   FirstOnLine found[LocalLines::most];
-  methods(surface.shape).first_crossings(surface.shape, near.lines, 0.0, {found, near.lines.count});
+  if (surface.shape.presence) {
+    for (std::size_t i = 0; i < near.lines.count; ++i) {
+      const Hit hit = first_present(surface, index, near.lines.line(i));
+      if (hit.found()) found[i] = {hit.along, hit.unresolved, hit.part};
+    }
+  } else {
+    methods(surface.shape).first_crossings(surface.shape, near.lines, 0.0, {found, near.lines.count});
+  }
   bool any = false;
   for (std::size_t i = 0; i < near.lines.count; ++i) {
     const double lambda = near.lines.lambda(i, found[i].t);
@@ -63,7 +71,12 @@ std::uint64_t blocked_by(const void* set, int index, std::uint64_t rays, const R
   const PlacedSurface& surface = static_cast<const PlacedSurface*>(set)[index];
   const Near near(surface, sheet, rays);
   bool blocked[LocalLines::most];
-  methods(surface.shape).blocks(surface.shape, near.lines, 0.0, lambda_max, {blocked, near.lines.count});
+  if (surface.shape.presence) {
+    for (std::size_t i = 0; i < near.lines.count; ++i) {
+      blocked[i] = first_present(surface, index, near.lines.line(i)).lambda < lambda_max;
+    }
+  } else
+    methods(surface.shape).blocks(surface.shape, near.lines, 0.0, lambda_max, {blocked, near.lines.count});
   std::uint64_t all = 0;
   for (std::size_t i = 0; i < near.lines.count; ++i) {
     if (blocked[i]) all |= std::uint64_t{1} << near.ray_of[i];
@@ -80,6 +93,10 @@ void put(const SurfacePoint& point, int ray, SheetPoints& out) {
   out.u[ray] = point.u;
   out.v[ray] = point.v;
   out.member[ray] = point.member;
+  out.moves[ray] = point.moves;
+  if (!point.moves) return;
+  for (int k = 0; k < 3; ++k) out.velocity[k][ray] = point.velocity[k];
+  out.own_time[ray] = point.own_time;
 }
 
 /// Of a shape without a closed form.
@@ -94,7 +111,10 @@ void points_by_lines(const PlacedSurface& surface, const Near& near, const Sheet
   }
   const auto wanted = textured ? TextureCoordinates::wanted : TextureCoordinates::unwanted;
   methods(surface.shape).points(surface.shape, near.lines, {crossings, count}, wanted, {local, count});
-  for (std::size_t i = 0; i < count; ++i) put(surface_point(surface, local[i]), near.ray_of[i], out);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time = near.lines.clock_start[i] + crossings[i].t * near.lines.clock_rate[i];
+    put(surface_point(surface, local[i], time), near.ray_of[i], out);
+  }
 }
 
 }  // namespace
@@ -127,17 +147,20 @@ std::uint64_t SurfaceSet::blocked(const RaySheet& sheet, std::uint64_t rays, dou
 void SurfaceSet::points(const RaySheet& sheet, int surface, int first, int last, const SheetHits& hits,
                         bool with_texture_coordinates, SheetPoints& points) const {
   const PlacedSurface& placed = at(surface);
+  const std::uint64_t all = (last < 64 ? std::uint64_t{1} << last : 0) - (std::uint64_t{1} << first);
   const auto texture = methods(placed.shape).texture;
   if (texture == nullptr) {
-    const std::uint64_t all = (last < 64 ? std::uint64_t{1} << last : 0) - (std::uint64_t{1} << first);
     points_by_lines(placed, Near(placed, sheet, all), hits, with_texture_coordinates, points);
     return;
   }
   double local[3][sheet_size];
-  std::uint64_t left =
-      surface_kernels(sheet.instructions)
-          .points(placed.lanes, sheet, first, last, hits, points, with_texture_coordinates ? local : nullptr);
-  for (int i = first; i < last && with_texture_coordinates; ++i) {
+  // What moves along its own surface is asked for its motion point by point.
+  const bool turns = placed.shape.motion != nullptr || placed.shape.presence != nullptr;
+  std::uint64_t left = turns ? all
+                             : surface_kernels(sheet.instructions)
+                                   .points(placed.lanes, sheet, first, last, hits, points,
+                                           with_texture_coordinates ? local : nullptr);
+  for (int i = first; i < last && with_texture_coordinates && !turns; ++i) {
     LocalPoint point{.position = {local[0][i], local[1][i], local[2][i]}};
     texture(placed.shape, hits.part_of(i), point);
     points.u[i] = point.u;
@@ -148,7 +171,8 @@ void SurfaceSet::points(const RaySheet& sheet, int surface, int first, int last,
     const int from = sheet.one_origin ? 0 : i;
     const Vec3 origin{sheet.origin[0][from], sheet.origin[1][from], sheet.origin[2][from]};
     const Vec3 direction{sheet.direction[0][i], sheet.direction[1][i], sheet.direction[2][i]};
-    put(resolve({hits.lambda[i], surface}, origin, direction), i, points);
+    const RayClock clock{sheet.start_time[from], sheet.time_rate[i]};
+    put(resolve({hits.lambda[i], surface}, origin, direction, clock), i, points);
   }
 }
 

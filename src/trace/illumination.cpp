@@ -10,7 +10,35 @@ namespace {
 struct WayToLight {
   NullDirection<Source> direction;
   double emission_time;
+  LorentzTransform<Source, Source> lamp =
+      {};  ///< from the light's frame to the lamp's own, if it moves there
 };
+
+// Of a lamp on a path, equation (40): h(t) = t_P - t - |x_P - c(t)| falls, since the lamp is slower than
+// light.
+WayToLight way_to_moving(const Event<Source>& event, const Light& light) {
+  const MatterMotion& motion = *light.motion;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = event.t;
+  double time = event.t;
+  MatterMotion::Centre lamp;
+  Vec3 way{0.0};
+  double length = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    lamp = motion.centre(time);
+    way = lamp.place - event.x;
+    length = glm::length(way);
+    const double late = (event.t - time) - length;
+    if (late == 0.0 || length == 0.0) break;
+    (late > 0.0 ? low : high) = time;
+    double next = time + late / (1.0 + glm::dot(way, lamp.velocity) / length);
+    if (!(next > low && next < high))
+      next = std::isfinite(low) ? 0.5 * low + 0.5 * high : time - 2.0 * std::abs(late);
+    if (next == time) break;
+    time = next;
+  }
+  return {{way, length}, time, boost_by<Source, Source>(lamp.velocity)};
+}
 
 // Equation (10): the past light cone of the hit meets the lamp's world line, and there is nothing to solve in
 // the lamp's frame. Of a distant light, it is the time of the wave front: below (13).
@@ -18,6 +46,7 @@ WayToLight way_from(const Event<Source>& event, const Light& light) {
   if (light.kind == LightKind::distant) {
     return {{-light.direction, 1.0}, event.t - glm::dot(light.direction, event.x)};
   }
+  if (light.motion) return way_to_moving(event, light);
   const NullDirection<Source> direction = null_direction<Source>(light.position - event.x);
   return {direction, event.t - direction.length};
 }
@@ -29,6 +58,7 @@ WayToLight way_from(const ExtendedEvent& event, const Light& light) {
     const Extended front = event.t - dot(ExtendedVec3{light.direction}, event.x);
     return {{-light.direction, 1.0}, double(front)};
   }
+  if (light.motion) return way_to_moving({double(event.t), event.x.rounded()}, light);
   const ExtendedVec3 way = ExtendedVec3{light.position} - event.x;
   const Extended length = sqrt(dot(way, way));
   return {{way.rounded(), double(length)}, double(event.t - length)};
@@ -38,11 +68,33 @@ WayToLight way_from(const ExtendedEvent& event, const Light& light) {
 // λ n, and never a boosted position.
 WayToLight way_to_light(const Hub& hub, RayInFrames& rays, const SeenPoint& point, const Light& light) {
   if (light.frame == point.hit.frame)
-    return way_from(Event<Source>{point.proper_time, point.surface.position}, light);
+    return way_from(Event<Source>{point.time, point.surface.position}, light);
   const FrameView& frame = hub.frames[static_cast<std::size_t>(light.frame)];
   if (frame.far) return way_from(far_event(*frame.far, rays.ray(), point.hit.lambda), light);
   const Event<Rest> event = rays.in(light.frame).at(point.hit.lambda);
   return way_from(Event<Source>{event.t, event.x}, light);  // entered through its index: Rest is Source here
+}
+
+}  // namespace
+
+namespace {
+
+// Into the frame of the matter: equations (34) and (35).
+void go_along(const RestRayEvents& ray, bool light_delay, SeenPoint& point) {
+  point.proper_time = point.surface.own_time;
+  point.matter = boost_by<Rest, Rest>(point.surface.velocity);
+  const Vec3& w = point.matter.celerity();
+  const double gamma = point.matter.gamma();
+  const Vec3& g = point.surface.normal;
+  point.normal = glm::normalize(g - glm::dot(g, w) / (gamma * (gamma + 1.0)) * w);
+  if (light_delay) {
+    const NullDirection<Rest> n = point.matter(NullDirection<Rest>{-point.to_camera, 1.0});
+    point.doppler = 1.0 / n.length;
+    point.to_camera = -n.x * point.doppler;
+  } else {
+    const Displacement<Rest> n = point.matter(Displacement<Rest>{ray.time_rate, ray.direction});
+    point.to_camera = -glm::normalize(n.x);
+  }
 }
 
 }  // namespace
@@ -57,11 +109,26 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit) {
   const bool light_delay = rays.ray().light_delay;
   const double inverse_length = light_delay ? ray.doppler(true).value : 1.0 / glm::length(ray.direction);
   point.to_camera = -ray.direction * inverse_length;
-  const bool outside = glm::dot(point.surface.normal, point.to_camera) >= 0.0;
-  point.normal = outside ? point.surface.normal : -point.surface.normal;
-  point.proper_time = ray.at(hit.lambda).t;
+  point.normal = point.surface.normal;
+  point.time = ray.at(hit.lambda).t;
+  point.proper_time = point.time;
+  if (point.surface.moves) go_along(ray, light_delay, point);
+  const bool outside = glm::dot(point.normal, point.to_camera) >= 0.0;
+  point.side = outside ? point.surface.normal : -point.surface.normal;
+  if (!outside) point.normal = -point.normal;
   return point;
 }
+
+namespace {
+
+// γ of a lamp on a path relative to the matter: minus the product of their four-velocities.
+double gamma_of_lamp(const SeenPoint& point, const LorentzTransform<Rest, Source>& to_surface,
+                     const LorentzTransform<Source, Source>& lamp) {
+  const Displacement<Rest> u = to_surface(Displacement<Source>{lamp.gamma(), lamp.celerity()});
+  return point.matter.gamma() * u.t - glm::dot(point.matter.celerity(), u.x);
+}
+
+}  // namespace
 
 std::optional<Arrival> arrival(const Hub& hub, RayInFrames& rays, const SeenPoint& point,
                                const LightView& view) {
@@ -69,25 +136,29 @@ std::optional<Arrival> arrival(const Hub& hub, RayInFrames& rays, const SeenPoin
   const WayToLight way = way_to_light(hub, rays, point, light);
   Arrival a;
   a.segment.direction = way.direction;
-  a.emission_time = way.emission_time;
+  a.emission_time = light.motion && light.flickers
+                        ? light.motion->own_time(light.motion->centre(way.emission_time).place,
+                                                 way.emission_time, Mat3(1.0))
+                        : way.emission_time;
   if (light.kind == LightKind::distant) a.segment.end = std::numeric_limits<double>::infinity();
   const auto& to_surface = view.to_frame[static_cast<std::size_t>(point.hit.frame)];
-  const NullDirection<Rest> k = to_surface(a.segment.direction);
+  const NullDirection<Rest> in_frame = to_surface(a.segment.direction);
+  const NullDirection<Rest> k = point.matter(in_frame);
   if (!(k.length > 0.0)) return std::nullopt;
   const double inverse_length = 1.0 / k.length;
   a.to_light = k.x * inverse_length;
   a.cosine = glm::dot(point.normal, a.to_light);
   if (!(a.cosine > 0.0)) return std::nullopt;
-  a.doppler = {k.length / a.segment.direction.length};
-  a.gamma = to_surface.gamma();
+  a.doppler = {k.length / way.lamp(way.direction).length};
+  a.gamma = light.motion ? gamma_of_lamp(point, to_surface, way.lamp) : gamma_between(point, to_surface);
   if (light.kind == LightKind::point) a.inverse_square = inverse_length * inverse_length;
-  a.segment.start_in_surface_frame = point.surface.position + point.surface.error_bound * point.normal;
-  a.segment.direction_in_surface_frame = k.x;
-  a.segment.clock_in_surface_frame = {point.proper_time, -k.length};
+  a.segment.start_in_surface_frame = point.surface.position + point.surface.error_bound * point.side;
+  a.segment.direction_in_surface_frame = in_frame.x;
+  a.segment.clock_in_surface_frame = {point.time, -in_frame.length};
   if (!view.retarded_shadows) {
     const Displacement<Rest> now = to_surface(Displacement<Source>{0.0, a.segment.direction.x});
     a.segment.direction_in_surface_frame = now.x;
-    a.segment.clock_in_surface_frame = {point.proper_time, now.t};
+    a.segment.clock_in_surface_frame = {point.time, now.t};
   }
   return a;
 }

@@ -20,17 +20,18 @@ void Tracer::add_light(const CameraRay& ray, const Effects& effects, SurfaceReco
   const RestRayEvents& events = scratch.rays.in(frame);
   const ShadingContext context = shading();
   Radiance<Rest> radiance;
+  SeenPoint point;
   if (hit.found()) {
-    const SeenPoint point = seen_point(hub_, scratch.rays, hit);
+    point = seen_point(hub_, scratch.rays, hit);
     record.lamps = lamps_reaching(context, point, effects, scratch);
     radiance = shade(context, point, effects, scratch);
   } else {
     radiance = sky_radiance(scene_->sky, events);
   }
   // As Tracer::colour has it where colours are not to be shifted: equation (9).
-  const double gamma = hub_.frames[static_cast<std::size_t>(frame)].from_camera.gamma();
-  record.unshifted =
-      luminance(carry(radiance, events.doppler(ray.light_delay), gamma, effects.towards_camera()).rgb);
+  const double gamma = gamma_between(point, hub_.frames[static_cast<std::size_t>(frame)].from_camera);
+  const DopplerFactor<Camera, Rest> doppler{events.doppler(ray.light_delay).value * point.doppler};
+  record.unshifted = luminance(carry(radiance, doppler, gamma, effects.towards_camera()).rgb);
 }
 
 }  // namespace backlight

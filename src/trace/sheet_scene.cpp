@@ -50,12 +50,14 @@ void SheetScene::list_entries(const Scene& scene) {
     const int first = static_cast<int>(numbered_.size());
     Entry entry{frame, first, is_extended(view), false};
     // Solids of several materials are a group each: which one a point has is not known before.
-    std::unordered_map<int, int> group_of;
+    std::unordered_map<int, int> group_of[2];
     for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {
       const Object& object = object_of(scene, frame, s);
       const int key = object.member_materials.empty() ? object.material : -1 - object.id;
-      const auto [group, is_new] = group_of.try_emplace(key, static_cast<int>(group_count_));
-      if (is_new) ++group_count_;
+      const bool moves = surfaces.moves(s);
+      const auto [group, is_new] =
+          group_of[moves ? 1 : 0].try_emplace(key, static_cast<int>(group_moves_.size()));
+      if (is_new) group_moves_.push_back(moves);
       numbered_.push_back({static_cast<int>(entries_.size()), group->second});
       entry.casts_shadows = entry.casts_shadows || surfaces.casts_shadow(s);
     }
@@ -109,7 +111,7 @@ LampView SheetScene::view_of(const Scene& scene, std::size_t light) const {
   const Light& lamp = scene.lights[light];
   if (lamp.kind == LightKind::ambient) return result;
   const FrameView& lamp_frame = hub_->frames[static_cast<std::size_t>(lamp.frame)];
-  result.in_lanes = !is_extended(lamp_frame);
+  result.in_lanes = !is_extended(lamp_frame) && !lamp.motion;
   for (const auto& to_frame : hub_->lights[light].to_frame) result.to_frame.push_back(lane_motion(to_frame));
 
   const Vec3 from = lamp_frame.camera_event.x;

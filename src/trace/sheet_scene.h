@@ -71,7 +71,9 @@ class SheetScene {
   [[nodiscard]] const Numbered& numbered(int number) const {
     return numbered_[static_cast<std::size_t>(number)];
   }
-  [[nodiscard]] std::size_t group_count() const { return group_count_; }
+  [[nodiscard]] std::size_t group_count() const { return group_moves_.size(); }
+  /// Whether matter of the group may not be at rest in its frame.
+  [[nodiscard]] bool moves(int group) const { return group_moves_[static_cast<std::size_t>(group)]; }
   [[nodiscard]] const SurfaceSet& surfaces(const Entry& entry) const {
     return *hub_->frames[static_cast<std::size_t>(entry.frame)].scene->surfaces;
   }
@@ -89,7 +91,7 @@ class SheetScene {
   const Hub* hub_;
   std::vector<Entry> entries_;
   std::vector<Numbered> numbered_;
-  std::size_t group_count_ = 0;
+  std::vector<bool> group_moves_;
   std::vector<EyeView> eyes_;
   std::vector<LampView> lamps_;
   std::vector<bool> lit_in_lanes_;

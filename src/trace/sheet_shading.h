@@ -85,7 +85,10 @@ class SheetShader {
   void begin_points();
 
   /// Whether lanes can light the points; else they are left to the law.
-  [[nodiscard]] bool in_lanes() const { return sheets_.lit_in_lanes(entry_->frame); }
+  [[nodiscard]] bool in_lanes() const {
+    return sheets_.lit_in_lanes(entry_->frame) &&
+           !sheets_.moves(sheets_.numbered(work_.points.runs[0].surface).group);
+  }
 
   /// Finds the points themselves. False: they are of several materials, as of a solid's members.
   bool resolve();

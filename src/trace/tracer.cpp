@@ -71,22 +71,21 @@ LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Eff
 
   // What carries light to the camera: L_camera(λ) = F D L_rest(Dλ), equation (8); F alone where colours stay,
   // (9).
-  const DopplerFactor<Camera, Rest> doppler = events.doppler(ray.light_delay);
-  const double gamma = hub_.frames[static_cast<std::size_t>(frame)].from_camera.gamma();
+  const SeenPoint point = hit.found() ? seen_point(hub_, scratch.rays, hit) : SeenPoint{};
+  const DopplerFactor<Camera, Rest> doppler{events.doppler(ray.light_delay).value * point.doppler};
+  const double gamma = gamma_between(point, hub_.frames[static_cast<std::size_t>(frame)].from_camera);
   const BrightnessSwitches& factors = effects.towards_camera();
   const ShadingContext context = shading();
 
   if (!spectral_ || !effects.doppler) {
     // Light into the surface from its retarded event, shadow ray, reflection in the rest frame: (10)-(12).
     const Radiance<Rest> radiance =
-        hit.found() ? shade(context, seen_point(hub_, scratch.rays, hit), effects, scratch)
-                    : sky_radiance(scene_->sky, events);
+        hit.found() ? shade(context, point, effects, scratch) : sky_radiance(scene_->sky, events);
     return carry(radiance, doppler, gamma, factors).rgb;
   }
   shift_by(doppler, scratch);
   const LinearRgb radiance =
-      hit.found() ? shade_shifted(context, seen_point(hub_, scratch.rays, hit), effects, scratch)
-                  : sky_shifted(context, events, scratch);
+      hit.found() ? shade_shifted(context, point, effects, scratch) : sky_shifted(context, events, scratch);
   return radiance_factor(doppler, gamma, factors) * wavelength_density_factor(doppler) * radiance;
 }
 
@@ -105,7 +104,7 @@ SurfaceRecord Tracer::surface_of(const CameraRay& ray, const FirstHit& hit, Scra
   const SeenPoint point = seen_point(hub_, scratch.rays, hit);
   record.object_id = object_of(*scene_, hit).id;
   record.distance = double(hit.lambda);
-  record.doppler = scratch.rays.in(hit.frame).doppler(ray.light_delay).value;
+  record.doppler = scratch.rays.in(hit.frame).doppler(ray.light_delay).value * point.doppler;
   record.emission_time = scratch.rays.event(0, hit.lambda).t / scene_->c;
   record.proper_time = point.proper_time / scene_->c;
   record.position = point.surface.position;

@@ -14,19 +14,19 @@ namespace backlight {
 
 enum class ValueKind {
   boolean,
-  number,        ///< or an expression in a string
-  numbers,       ///< an array of `count` numbers; any length (but zero) when count is 0
-  colours,       ///< an array of `count` arrays of three numbers
-  points,        ///< the same, of coordinates
-  formula,       ///< an expression of x, y, z and what every expression may use, in a string
-  text,          ///< any string
-  choice,        ///< one of the key's `choices`
-  choices,       ///< an array of them
-  path,          ///< of a file, relative to the file that names it
-  paths,         ///< an array of them
-  reference,     ///< the name of a [table.NAME], `table` being the form's
-  table,         ///< one table, whose keys are those of `table`
-  tables,        ///< an array of them
+  number,     ///< or an expression in a string
+  numbers,    ///< an array of `count` numbers; any length (but zero) when count is 0
+  colours,    ///< an array of `count` arrays of three numbers
+  points,     ///< the same, of coordinates
+  formula,    ///< an expression of x, y, z and what every expression may use, in a string; `count`: an array
+  text,       ///< any string
+  choice,     ///< one of the key's `choices`
+  choices,    ///< an array of them
+  path,       ///< of a file, relative to the file that names it
+  paths,      ///< an array of them
+  reference,  ///< the name of a [table.NAME], `table` being the form's
+  table,      ///< one table, whose keys are those of `table`
+  tables,     ///< an array of them
   named_tables,  ///< a table of tables: [table.NAME]
   parameters     ///< a table of numbers with names of the author's choice
 };
@@ -44,7 +44,7 @@ enum class Clock {
 /// One way of writing a value.
 struct ValueForm {
   ValueKind kind = ValueKind::number;
-  int count = 0;           ///< for `numbers` and `colours`
+  int count = 0;           ///< for `numbers`, `colours` and `formula`
   std::string_view table;  ///< for the kinds that need one
 
   ValueForm(ValueKind of_kind, int of_count = 0, std::string_view of_table = {})

@@ -19,6 +19,7 @@
 #include "backlight/expression/expression.h"
 #include "backlight/film/texture.h"
 #include "backlight/spacetime/transform.h"
+#include "backlight/surface/matter_motion.h"
 #include "backlight/surface/surface_set.h"
 
 namespace backlight {
@@ -101,8 +102,10 @@ enum class LightKind { point, distant, ambient };
 struct Light {
   LightKind kind = LightKind::point;
   std::string name;
-  int frame = 0;                   ///< index of its rest frame
-  Vec3 position{0.0};              ///< point: in that frame's coordinates
+  int frame = 0;       ///< index of its rest frame
+  Vec3 position{0.0};  ///< point: in that frame's coordinates
+  /// Point: of a lamp on a path, whose world line is that of the origin of the motion's ball; null: at rest.
+  std::shared_ptr<const MatterMotion> motion;
   Vec3 direction{0.0, -1.0, 0.0};  ///< distant: the unit direction in which the light travels, in that frame
   Colour colour;                   ///< spectrum of unit strength
   /// Strength as a function of the light's own (frame) time: intensity of a point light, irradiance of a

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "backlight/spacetime/extended.h"
 #include "backlight/spacetime/frame.h"
@@ -80,6 +81,8 @@ class LorentzTransform {
   template <class T, class F>
   friend LorentzTransform<T, F> relative_transform(const ExtendedVec3& to, const ExtendedVec3& from,
                                                    double robust_from);
+  template <class T, class F>
+  friend LorentzTransform<T, F> boost_by(const Vec3& velocity);
 
  private:
   [[nodiscard]] NullDirection<To> standard(const NullDirection<From>& n) const {
@@ -147,6 +150,20 @@ LorentzTransform<To, From> relative_transform(const ExtendedVec3& to, const Exte
   t.identity_ = motion.identity;
   t.rotated_ = motion.rotated;
   t.robust_ = motion.gamma > robust_from;
+  return t;
+}
+
+/// B of what moves with this velocity in From, |v| < 1, along From's axes.
+template <class To, class From>
+LorentzTransform<To, From> boost_by(const Vec3& velocity) {
+  const double speed = glm::length(velocity);
+  LorentzTransform<To, From> t;
+  t.gamma_ = 1.0 / std::sqrt((1.0 - speed) * (1.0 + speed));
+  t.celerity_ = t.gamma_ * velocity;
+  t.speed_ = t.gamma_ * speed;
+  t.inverse_gamma_plus_one_ = 1.0 / (1.0 + t.gamma_);
+  t.identity_ = speed == 0.0;
+  t.robust_ = t.gamma_ > robust_gamma;
   return t;
 }
 

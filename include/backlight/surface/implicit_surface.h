@@ -26,6 +26,8 @@ struct ImplicitOptions {
   /// Of the formula's t for one unit of the frame's time (c = 1).
   double seconds_per_length = 1.0;
   std::shared_ptr<const ImplicitBlend> blend{};
+  /// Of the matter; if it has a ball, that bounds the surface, and not the box.
+  std::shared_ptr<const MatterMotion> motion{};
   /// `interval`, `affine` or `polynomial` (where it is one; else by forms); nothing: choose_root_finder(),
   /// unless there is something wrong with the shape.
   std::optional<RootFinder> finder{};

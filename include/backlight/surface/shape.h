@@ -8,11 +8,13 @@
 #include <string_view>
 
 #include "backlight/base/vector.h"
+#include "backlight/expression/expression.h"
 
 namespace backlight {
 
 class ImplicitFormula;
 struct ImplicitBlend;
+class MatterMotion;
 class Solid;
 
 /// The kinds of surfaces. What each can do is in one table, src/surface/shape_table.h.
@@ -29,6 +31,14 @@ enum class ShapeKind : std::uint8_t {
   implicit
 };
 
+/// When a surface is there: where the formula is positive, of its matter's own time in seconds.
+struct Presence {
+  Expression of_own_time;  ///< of variables of which only the first, t, is used
+  double seconds_per_length = 1.0;
+
+  [[nodiscard]] bool at(double own_time) const;
+};
+
 /// A surface in local coordinates (y up, centred on the local origin), as a plain value. Make one with the
 /// functions below; they do not validate, problem() does.
 struct Shape {
@@ -37,6 +47,8 @@ struct Shape {
   std::shared_ptr<const Solid> solid{};  ///< csg: what it is made of (surface/solid.h)
   std::shared_ptr<const ImplicitFormula> formula{};  ///< implicit (surface/implicit.h)
   std::shared_ptr<const ImplicitBlend> blend{};  ///< implicit: what was blended (surface/implicit_surface.h)
+  std::shared_ptr<const MatterMotion> motion{};  ///< of its matter; null: at rest (surface/matter_motion.h)
+  std::shared_ptr<const Presence> presence{};    ///< null: it is always there
 };
 
 /// |x| = radius. Texture: u = 1/2 + atan2(x, z)/2pi, v = polar angle from +y over pi. So the +z axis pierces

@@ -43,6 +43,11 @@ struct SurfacePoint {
   /// went into it. A ray that leaves from position ± error_bound·normal, away from the surface, does not meet
   /// the surface at its own start.
   double error_bound = 0.0;
+  /// Of matter that is not at rest in the frame: its velocity there, and its own time
+  /// (surface/matter_motion.h).
+  bool moves = false;
+  Vec3 velocity{0.0};
+  double own_time = 0.0;
 };
 
 /// A sphere about something. radius < 0: about nothing; infinite: what it encloses has no bounds.
@@ -97,6 +102,10 @@ class SurfaceSet {
   [[nodiscard]] bool is_convex(int surface) const;
   /// ...and on its inside neither.
   [[nodiscard]] bool is_flat(int surface) const;
+
+  /// Whether matter of it may not be at rest in the frame: SurfacePoint::moves of its points.
+  [[nodiscard]] bool moves(int surface) const;
+  [[nodiscard]] bool any_moves() const;
 
   /// The radius of the ball about the centre of bounds() that is opaque all through; 0: there is none.
   [[nodiscard]] double opaque_radius(int surface) const;

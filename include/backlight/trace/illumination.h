@@ -7,14 +7,29 @@
 
 namespace backlight {
 
-/// A point of a surface that the camera sees, in the surface's rest frame.
+/// A point of a surface that the camera sees. What its matter reflects is told in the matter's own frame:
+/// that of the surface or, of matter that is not at rest there, the one that goes along with it
+/// (docs/physics.md section 13), along the same axes.
 struct SeenPoint {
   FirstHit hit;
-  SurfacePoint surface;
-  Vec3 normal{0.0};          ///< unit, on the side that is seen
-  Vec3 to_camera{0.0};       ///< unit, where the ray came from, as aberrated into this frame
-  double proper_time = 0.0;  ///< the object's frame time of the emission event
+  SurfacePoint surface;                 ///< in the surface's frame
+  LorentzTransform<Rest, Rest> matter;  ///< from the surface's frame to the matter's
+  Vec3 side{0.0};                       ///< the surface's normal in its frame, on the side that is seen
+  Vec3 normal{0.0};                     ///< unit, on the side that is seen
+  Vec3 to_camera{0.0};                  ///< unit, where the ray came from
+  double doppler = 1.0;      ///< on the way to the camera: frequency in the surface's frame over the matter's
+  double time = 0.0;         ///< the surface's frame time of the emission event
+  double proper_time = 0.0;  ///< the matter's own: the same, unless it moves in the frame
 };
+
+/// γ of the matter relative to where `to_surface` comes from.
+template <class From>
+double gamma_between(const SeenPoint& point, const LorentzTransform<Rest, From>& to_surface) {
+  if (point.matter.is_identity()) return to_surface.gamma();
+  const Vec3& w = to_surface.celerity();
+  return to_surface.gamma() * point.matter.gamma() +
+         glm::dot(to_surface.is_rotated() ? to_surface.rotation() * w : w, point.matter.celerity());
+}
 
 /// The point where this ray meets a surface.
 SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit);
@@ -22,7 +37,7 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit);
 /// One lamp's light at a seen point, before it is known whether something is in the way.
 struct Arrival {
   DopplerFactor<Rest, Source> doppler;  ///< frequency at the surface over frequency at the lamp
-  double gamma = 1.0;                   ///< of the lamp's velocity relative to the surface
+  double gamma = 1.0;                   ///< of the lamp's velocity relative to the matter
   double emission_time = 0.0;           ///< the lamp's own time when this light left it (times c)
   double cosine = 0.0;                  ///< of the angle of incidence, in the surface's frame; > 0
   double inverse_square = 1.0;          ///< 1/r², r the length of the null segment in the surface's frame

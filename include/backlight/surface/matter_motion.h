@@ -1,0 +1,85 @@
+// Matter that turns, swings or accelerates in the inertial frame that its surface is placed in.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "backlight/base/vector.h"
+#include "backlight/expression/expression.h"
+#include "backlight/surface/shape.h"
+
+namespace backlight {
+
+/// How the matter of a surface moves: docs/physics.md section 13. Places are in the local coordinates of the
+/// surface, which rest in the frame; times are the frame's (c = 1), and velocities in local coordinates by
+/// that time. Immutable; safe to use from many threads.
+class MatterMotion {
+ public:
+  /// Three formulas of x, y, z and t, t in seconds.
+  using Map = std::array<Expression, 3>;
+
+  /// Equation (33): a body point is somewhere at each time, and each place is at each time a body point's.
+  struct Body {
+    Map place;  ///< of a body point
+    Map point;  ///< of a place: which body point is there
+  };
+
+  /// Of a surface that goes away: a ball that holds it at all times, whose centre goes along a path. Local
+  /// coordinates are then the frame's, but for a translation.
+  struct Ball {
+    Map path;       ///< of the centre; formulas of t alone
+    double radius;  ///< > 0
+    double speed;   ///< the centre is nowhere faster, < 1
+    /// Before this time nothing is known of the motion, and the surface is not there.
+    double begins = -std::numeric_limits<double>::infinity();
+  };
+
+  struct Time {
+    double seconds_per_length = 1.0;
+    /// False: nothing asks for own_time(), which takes as long as some hundred formulas.
+    bool counts = true;
+  };
+
+  /// `body_shape`: whose texture coordinates the body points have.
+  MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball, Time time);
+  /// Of a flow of matter, told by its velocity in local lengths for a second.
+  MatterMotion(Map velocity, Time time);
+
+  [[nodiscard]] const std::optional<Ball>& ball() const { return ball_; }
+
+  /// Of whose points it tells; null: of none.
+  [[nodiscard]] const Shape* body_shape() const { return body_ ? &body_shape_ : nullptr; }
+
+  /// Which body point is at a place; the place itself where that is not told.
+  [[nodiscard]] Vec3 body_point(const Vec3& place, double time) const;
+
+  /// Of the matter at a place.
+  [[nodiscard]] Vec3 velocity(const Vec3& place, double time) const;
+
+  /// Whether own times are asked for.
+  [[nodiscard]] bool counts_time() const { return time_.counts; }
+  /// What the clock of the matter at a place has counted since the frame's time 0: equation (36).
+  /// `rest_from_local`: what makes velocities of the frame's of local ones.
+  [[nodiscard]] double own_time(const Vec3& place, double time, const Mat3& rest_from_local) const;
+
+  /// The centre of the ball and its velocity. Only of a motion that has one.
+  struct Centre {
+    Vec3 place;
+    Vec3 velocity;
+  };
+  [[nodiscard]] Centre centre(double time) const;
+
+ private:
+  [[nodiscard]] Vec3 velocity_of(const Vec3& body_point, double time) const;
+  [[nodiscard]] Vec3 given_velocity(const Vec3& place, double time) const;
+
+  std::optional<Body> body_;
+  Shape body_shape_;
+  std::optional<Map> velocity_;
+  std::optional<Ball> ball_;
+  Time time_;
+};
+
+}  // namespace backlight

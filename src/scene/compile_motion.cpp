@@ -1,0 +1,420 @@
+#include "compile_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "backlight/expression/enclosure.h"
+#include "backlight/surface/implicit_surface.h"
+#include "camera_motion.h"
+#include "compile_formulas.h"
+#include "compile_shapes.h"
+#include "motion_levels.h"
+#include "speed_proof.h"
+#include "words.h"
+
+namespace backlight {
+namespace {
+
+bool place_uses_time(const Description& description, const Node& table) {
+  for (const std::string_view key : {"position", "rotate", "scale"}) {
+    const Entry* entry = find(table, key);
+    if (entry != nullptr && description.depends_on_t(entry->node)) return true;
+  }
+  const Entry* parts = find(table, "part");
+  if (parts == nullptr || parts->node.array() == nullptr) return false;
+  return std::ranges::any_of(*parts->node.array(),
+                             [&](const Node& part) { return place_uses_time(description, part); });
+}
+
+/// Everywhere within a body's own box f is as it was, and outside it is undefined: an open surface ends
+/// there.
+Expression within_box(const Expression& f, const Vec3& low, const Vec3& high, bool closed) {
+  std::string inside;
+  const char* const names[3] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i) {
+    const std::string middle = number_text(0.5 * low[i] + 0.5 * high[i]);
+    const std::string half = number_text(0.5 * high[i] - 0.5 * low[i]);
+    inside += std::string(i > 0 ? ", " : "") + "abs(" + names[i] + " - (" + middle + ")) - " + half;
+  }
+  const std::string box = "max(" + inside + ")";
+  const std::string text = closed ? "max(f, " + box + ")" : "f + 0*sqrt(-" + box + ")";
+  const Expression outer = std::get<Expression>(Expression::parse(text, {"x", "y", "z", "t", "f"}));
+  Composer composer(ImplicitFormula::variables);
+  std::vector<Composer::Node> at;
+  for (std::size_t i = 0; i < ImplicitFormula::variables; ++i) at.push_back(composer.variable(i));
+  at.push_back(composer.insert(f, at));
+  return composer.expression(composer.insert(outer, at), f.text());
+}
+
+Expression of_text(const std::string& text, const std::vector<std::string>& names,
+                   const std::vector<double>& values) {
+  std::vector<std::string> variables{"x", "y", "z", "t"};
+  variables.insert(variables.end(), names.begin(), names.end());
+  return std::get<Expression>(Expression::parse(text, variables)).bind(ImplicitFormula::variables, values);
+}
+
+/// About the body's origin.
+MatterMotion::Ball ball_of(const MatterMotion::Body& body, const SpeedProof& proof, double radius, double c) {
+  MatterMotion::Ball ball{{}, radius, proof.centre_speed, proof.begins * c};
+  Composer composer(ImplicitFormula::variables);
+  const Composer::Node zero = composer.constant(0.0);
+  const std::array<Composer::Node, 4> origin{zero, zero, zero, composer.variable(ImplicitFormula::t)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    ball.path[i] = composer.expression(composer.insert(body.place[i], origin), "");
+  }
+  return ball;
+}
+
+/// The levels with what depends on t put to 0.
+std::vector<MotionLevel> at_rest(std::vector<MotionLevel> levels) {
+  for (MotionLevel& level : levels) {
+    for (Expression& angle : level.rotate) {
+      if (!angle.constant()) angle = constant_formulas(Vec3{0.0})[0];
+    }
+  }
+  return levels;
+}
+
+using Reach = std::array<Interval, 3>;
+
+/// A box about the shape in its own coordinates.
+Reach box_of(const Shape& shape) {
+  Vec3 low{std::numeric_limits<double>::infinity()};
+  Vec3 high = -low;
+  for (const HullBall& ball : hull_of(shape)) {
+    low = glm::min(low, ball.centre - ball.radius);
+    high = glm::max(high, ball.centre + ball.radius);
+  }
+  return {Interval{low.x, high.x, Continuity::continuous}, Interval{low.y, high.y, Continuity::continuous},
+          Interval{low.z, high.z, Continuity::continuous}};
+}
+
+/// Of levels whose angles alone depend on t, which are put to 0; nothing for others.
+std::optional<Placement> placement_at_rest(const std::vector<MotionLevel>& levels) {
+  Placement placement;
+  for (const MotionLevel& level : at_rest(levels)) {
+    const auto position = constants_of(level.position), rotate = constants_of(level.rotate),
+               scale = constants_of(level.scale);
+    if (level.rocket || !position || !scale) return std::nullopt;
+    placement = placement.around(Placement(*position, *rotate, *scale));
+  }
+  return placement;
+}
+
+/// Whether all that moves is one angle, and the shape with all that is within it is a surface of revolution
+/// about that axis (a plane about its normal, a sphere about any line through its centre).
+bool turns_in_itself(const Shape& shape, const std::vector<MotionLevel>& levels) {
+  const auto moving = std::ranges::find_if(levels, &MotionLevel::moves);
+  if (moving == levels.end() ||
+      std::any_of(moving + 1, levels.end(), [](const auto& l) { return l.moves(); })) {
+    return false;
+  }
+  std::vector<int> angles;
+  for (int i = 0; i < 3; ++i) {
+    if (!moving->rotate[static_cast<std::size_t>(i)].constant()) angles.push_back(i);
+  }
+  const auto scale = constants_of(moving->scale);
+  if (angles.size() != 1 || !scale || !constants_of(moving->position) || moving->rocket) return false;
+  Vec3 before{0.0};  // the angles of rotations that come before
+  for (int i = 0; i < angles.front(); ++i)
+    before[i] = *moving->rotate[static_cast<std::size_t>(i)].constant();
+  const auto inner = placement_at_rest({moving + 1, levels.end()});
+  if (!inner) return false;
+  const Placement within = Placement(Vec3{0.0}, before, *scale).around(*inner);
+  const auto is_small = [](double x) { return std::abs(x) <= 1e-14; };
+  Vec3 axis{0.0};
+  axis[angles.front()] = 1.0;
+  if (!is_small(glm::length(glm::cross(axis, within.position())))) return false;
+  const Mat3& m = within.rest_from_local();
+  const double x = glm::length(m[0]), y = glm::length(m[1]), z = glm::length(m[2]);
+  const bool square = is_small(glm::dot(m[0], m[1]) / (x * y)) && is_small(glm::dot(m[1], m[2]) / (y * z)) &&
+                      is_small(glm::dot(m[2], m[0]) / (z * x));
+  if (!square || !is_small(x / z - 1.0)) return false;
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return is_small(x / y - 1.0) || is_small(glm::length(glm::cross(axis, m[1])) / y);
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+    case ShapeKind::torus:
+    case ShapeKind::disk:
+    case ShapeKind::plane:
+      return is_small(glm::length(glm::cross(axis, m[1])) / y);
+    default:
+      return false;
+  }
+}
+
+/// Whether anything that matter has by its own time depends on it: a material, its presence, the light around
+/// it.
+bool lives_by_own_time(const Description& description, const Node& node, bool of_matter) {
+  if (of_matter && std::holds_alternative<Expression>(node.value)) return description.depends_on_t(node);
+  if (const NodeArray* array = node.array()) {
+    return std::ranges::any_of(
+        *array, [&](const Node& one) { return lives_by_own_time(description, one, of_matter); });
+  }
+  const NodeTable* table = node.table();
+  return table != nullptr && std::ranges::any_of(*table, [&](const Entry& entry) {
+           const bool matters =
+               entry.name == "material" || entry.name == "visible" || entry.name == "radiance";
+           return lives_by_own_time(description, entry.node, of_matter || matters);
+         });
+}
+
+class MotionCompiler {
+ public:
+  MotionCompiler(Compilation& c, const TableView& object, int frame)
+      : c_(c), object_(object), prover_(c, frame) {}
+
+  std::optional<MovingShape> put_in_motion(const Shape& shape, const SolidTree* solid, const Vec3& offset) {
+    MotionLevel whole = level_of(object_);
+    if (has_motion(object_)) whole.position = constant_formulas(Vec3{0.0});
+    const std::size_t errors = c_.values.diagnostics.error_count();
+    take_rocket(object_, c_.scene.c, whole);
+    if (c_.values.diagnostics.error_count() > errors) return std::nullopt;
+    MovingShape moving;
+    if (const auto at = constants_of(whole.position)) {
+      moving.placement = Placement(*at + offset, Vec3{0.0}, Vec3{1.0});
+      whole.position = constant_formulas(Vec3{0.0});
+    } else {
+      moving.placement = Placement(offset, Vec3{0.0}, Vec3{1.0});
+    }
+    offset_ = moving.placement.position();
+    SolidTree tree;
+    if (solid != nullptr) {
+      tree = *solid;
+    } else {
+      tree.shape = shape;
+    }
+    if (!put_parts_in_motion(object_, tree, {whole}, solid != nullptr)) return std::nullopt;
+    if (solid != nullptr) {
+      moving.shape = csg(tree);
+    } else {
+      moving.shape = tree.shape;
+      moving.placement = moving.placement.around(tree.placement);
+    }
+    return moving;
+  }
+
+ private:
+  bool put_parts_in_motion(const TableView& table, SolidTree& tree, const std::vector<MotionLevel>& levels,
+                           bool closed) {
+    tree.placement = Placement{};
+    if (tree.parts.empty()) return put_leaf_in_motion(table, tree, levels, closed);
+    const NodeArray& written = *table.node_of("part")->array();
+    bool good = true;
+    for (std::size_t i = 0; i < tree.parts.size(); ++i) {
+      const TableView part(c_.values, &written[i], *find_table("object.part"));
+      std::vector<MotionLevel> inner = levels;
+      inner.push_back(level_of(part));
+      good = put_parts_in_motion(part, tree.parts[i], inner, closed) && good;
+    }
+    return good;
+  }
+
+  /// What stays where it is keeps its own form: what does not move, and a surface of revolution that turns
+  /// about its own axis.
+  bool put_leaf_in_motion(const TableView& table, SolidTree& leaf, const std::vector<MotionLevel>& levels,
+                          bool closed) {
+    const bool moves = std::ranges::any_of(levels, &MotionLevel::moves);
+    const auto rest =
+        moves && !turns_in_itself(leaf.shape, levels) ? std::nullopt : placement_at_rest(levels);
+    if (!rest) {
+      auto moved = leaf_in_motion(table, leaf.shape, levels, closed);
+      if (moved) leaf.shape = *std::move(moved);
+      return moved.has_value();
+    }
+    leaf.placement = *rest;
+    if (!moves) return true;
+    if (!prover_.prove(table, levels, hull_of(leaf.shape), offset_)) return false;
+    leaf.shape.motion = std::make_shared<const MatterMotion>(body_within(levels, at_rest(levels)), leaf.shape,
+                                                             std::nullopt, clock_of(c_));
+    return true;
+  }
+
+  std::optional<Shape> leaf_in_motion(const TableView& table, const Shape& shape,
+                                      const std::vector<MotionLevel>& levels, bool closed) {
+    auto formula = body_formula(table, shape, closed);
+    if (!formula) return std::nullopt;
+    SurfaceSet one;
+    one.add(shape, Placement{});
+    const auto proof = prover_.prove(table, levels, hull_of(shape), offset_);
+    if (!proof) return std::nullopt;
+    const MatterMotion::Body body = body_of(levels);
+    const MatterMotion::Ball ball =
+        ball_of(body, *proof, one.bounds(0).radius * stretch_of(levels, times_of(*proof)) * (1.0 + 1e-12),
+                c_.scene.c);
+    Vec3 low{0.0}, high{0.0};
+    bool rests = std::isinf(ball.begins);
+    const Reach box = box_of(shape);
+    const Interval times = times_of(*proof);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int k = static_cast<int>(i);
+      const Interval path = over_times(ball.path[i], times.lower, times.upper).value;
+      // All places of a box about the body, and those of a ball about its centre.
+      const Interval places = enclose(body.place[i].tape(), std::array{box[0], box[1], box[2], times});
+      low[k] = std::max(path.lower - ball.radius, places.lower - 1e-12 * ball.radius);
+      high[k] = std::min(path.upper + ball.radius, places.upper + 1e-12 * ball.radius);
+      rests = rests && ball.path[i].constant();
+    }
+    constexpr double far_away = 1e9;  // of what goes on forever, for all times; a box that large helps no one
+    const bool bounded = std::isinf(ball.begins) && glm::length(high - low) < far_away;
+    if (!bounded) {
+      low = Vec3{-std::numeric_limits<double>::infinity()};
+      high = -low;
+    }
+    ImplicitOptions options;
+    options.seconds_per_length = 1.0 / c_.scene.c;
+    options.unresolved = shape.values[7] == 1.0 && shape.kind == ShapeKind::implicit ? UnresolvedRoots::skip
+                                                                                     : UnresolvedRoots::take;
+    options.motion = std::make_shared<const MatterMotion>(
+        body, shape, rests ? std::nullopt : std::optional(ball), clock_of(c_));
+    options.finder = RootFinder::affine;
+    if (shape.blend) {
+      auto blend = std::make_shared<ImplicitBlend>();
+      for (const ImplicitFormula& part : shape.blend->formulas) {
+        blend->formulas.emplace_back(moved_formula(part.expression(), levels));
+      }
+      blend->members = shape.blend->members;
+      options.blend = blend;
+    }
+    const auto moved = std::make_shared<const ImplicitFormula>(moved_formula(*formula, levels));
+    return implicit(moved, low, high, options);
+  }
+
+  /// How much at most a body is stretched.
+  double stretch_of(const std::vector<MotionLevel>& levels, const Interval& times) const {
+    double stretch = 1.0;
+    for (const MotionLevel& level : levels) {
+      double largest = 0.0;
+      for (const Expression& scale : level.scale) {
+        const Interval range = over_times(scale, times.lower, times.upper).value;
+        largest = std::max({largest, std::abs(range.lower), std::abs(range.upper)});
+      }
+      stretch *= largest;
+    }
+    return stretch;
+  }
+
+  /// For which it is proved.
+  [[nodiscard]] Interval times_of(const SpeedProof& proof) const {
+    if (std::isinf(proof.begins)) return {-always, always, Continuity::continuous};
+    return {proof.begins, prover_.last(), Continuity::continuous};
+  }
+
+  std::optional<Expression> body_formula(const TableView& table, const Shape& shape, bool closed) {
+    const auto& v = shape.values;
+    switch (shape.kind) {
+      case ShapeKind::sphere:
+        return of_text("x^2 + y^2 + z^2 - r^2", {"r"}, {v[0]});
+      case ShapeKind::box:
+        return of_text("max(abs(x) - a, abs(y) - b, abs(z) - c)", {"a", "b", "c"},
+                       {0.5 * v[0], 0.5 * v[1], 0.5 * v[2]});
+      case ShapeKind::cylinder:
+        return of_text("max(x^2 + z^2 - r^2, abs(y) - h)", {"r", "h"}, {v[0], 0.5 * v[1]});
+      case ShapeKind::cone:
+        return of_text("max(x^2 + z^2 - (m + k*y)^2, abs(y) - h)", {"m", "k", "h"},
+                       {0.5 * (v[0] + v[1]), (v[1] - v[0]) / v[2], 0.5 * v[2]});
+      case ShapeKind::torus:
+        return of_text("(sqrt(x^2 + z^2) - major)^2 + y^2 - minor^2", {"major", "minor"}, {v[0], v[1]});
+      case ShapeKind::disk:
+        return of_text("y + 0*sqrt(r^2 - x^2 - z^2)", {"r"}, {v[0]});
+      case ShapeKind::quadric:
+        if (!is_infinite(shape)) return formula_of(shape);
+        [[fallthrough]];
+      case ShapeKind::plane:
+        table.error("shape", "a surface without bounds can turn about its own axis, and not move otherwise",
+                    "a box or a disk of the size that is seen can");
+        return std::nullopt;
+      case ShapeKind::implicit: {
+        const Vec3 low{v[0], v[1], v[2]};
+        const Vec3 high{v[3], v[4], v[5]};
+        const auto bounds = c_.cache.bounds(*shape.formula);
+        const bool whole = bounds && !bounds->inside_beyond && bounds->low.x >= low.x &&
+                           bounds->low.y >= low.y && bounds->low.z >= low.z && bounds->high.x <= high.x &&
+                           bounds->high.y <= high.y && bounds->high.z <= high.z;
+        const Expression& f = shape.formula->expression();
+        return whole ? f : within_box(f, low, high, closed);
+      }
+      case ShapeKind::csg:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  Compilation& c_;
+  const TableView& object_;
+  SpeedProver prover_;
+  Vec3 offset_{0.0};
+};
+
+std::array<Expression, 3> formulas_of(const TableView& table, std::string_view key, const Vec3& now) {
+  const Node* node = table.node_of(key);
+  if (node == nullptr || !table.values().description.depends_on_t(*node)) return constant_formulas(now);
+  std::array<Expression, 3> formulas;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const NodeArray* three = node->array();
+    formulas[i] = formula_of_time(table.values(), three != nullptr ? (*three)[i] : *node);
+  }
+  return formulas;
+}
+
+}  // namespace
+
+MotionLevel level_of(const TableView& table) {
+  return {formulas_of(table, "position", table.vector("position")),
+          formulas_of(table, "rotate", table.vector("rotate")),
+          formulas_of(table, "scale", read_scale(table)), std::nullopt};
+}
+
+void take_rocket(const TableView& table, double c, MotionLevel& level) {
+  if (!table.has_valid("rocket")) return;
+  const TableView rocket = table.table("rocket", "rocket");
+  const auto along = rocket.complete() ? thrust_direction(rocket) : std::nullopt;
+  if (!along) return;
+  level.rocket = {rocket.number("acceleration") / (c * c), along->rounded(), c};
+  for (const char* key : {"position", "rotate", "scale"}) {
+    const Entry* written = find(*table.node(), key);
+    if (written != nullptr && table.values().description.depends_on_t(written->node)) {
+      table.error(key,
+                  std::string("what flies with a rocket cannot also move by a formula of t in '") + key + "'",
+                  "a solid's parts can, within it");
+    }
+  }
+}
+
+MatterMotion::Time clock_of(const Compilation& c) {
+  const auto& aovs = c.scene.film.aovs;
+  const bool shown = std::ranges::find(aovs, "properTime") != aovs.end();
+  return {1.0 / c.scene.c,
+          shown || lives_by_own_time(c.values.description, c.values.description.root, false)};
+}
+
+bool is_in_motion(const TableView& thing) {
+  if (thing.node() == nullptr) return false;
+  return find(*thing.node(), "rocket") != nullptr ||
+         (!has_motion(thing) && place_uses_time(thing.values().description, *thing.node()));
+}
+
+std::shared_ptr<const MatterMotion> path_of(Compilation& c, const TableView& light, int frame) {
+  const std::size_t errors = c.values.diagnostics.error_count();
+  MotionLevel level{formulas_of(light, "position", light.vector("position")), constant_formulas(Vec3{0.0}),
+                    constant_formulas(Vec3{1.0}), std::nullopt};
+  if (has_motion(light)) level.position = constant_formulas(Vec3{0.0});
+  take_rocket(light, c.scene.c, level);
+  if (c.values.diagnostics.error_count() > errors) return {};
+  const SpeedProver prover(c, frame);
+  const auto proof = prover.prove(light, {level}, {HullBall{}}, Vec3{0.0});
+  if (!proof) return {};
+  const MatterMotion::Body body = body_of({level});
+  MatterMotion::Ball ball = ball_of(body, *proof, 0.0, c.scene.c);
+  return std::make_shared<const MatterMotion>(body, sphere(1.0), ball, clock_of(c));
+}
+
+std::optional<MovingShape> put_in_motion(Compilation& c, const TableView& object, int frame,
+                                         const Shape& shape, const SolidTree* solid, const Vec3& offset) {
+  return MotionCompiler(c, object, frame).put_in_motion(shape, solid, offset);
+}
+
+}  // namespace backlight

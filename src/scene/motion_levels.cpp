@@ -1,0 +1,195 @@
+#include "motion_levels.h"
+
+#include <numbers>
+
+#include "backlight/surface/implicit.h"
+#include "backlight/surface/placement.h"
+#include "own_time.h"
+
+namespace backlight {
+namespace {
+
+using GraphNode = Composer::Node;
+
+Expression constant_expression(double value) {
+  Composer composer(ImplicitFormula::variables);
+  return composer.expression(composer.constant(value), "");
+}
+
+MotionCoordinates variables_of(Composer& composer) {
+  return {composer.variable(0), composer.variable(1), composer.variable(2), composer.variable(3)};
+}
+
+/// What is multiplied by 0 or 1 leaves no trace.
+GraphNode times(Composer& composer, GraphNode factor, const std::optional<double>& constant,
+                GraphNode value) {
+  if (constant == 1.0) return value;
+  if (constant == 0.0) return composer.constant(0.0);
+  return composer.apply(Operation::multiply, factor, value);
+}
+
+struct Turn {
+  GraphNode sine, cosine;
+  std::optional<double> constant_sine, constant_cosine;
+};
+
+/// Of an angle in degrees; whole quarter turns are exact.
+Turn turn_by(Composer& composer, const Expression& degrees, const MotionCoordinates& at) {
+  if (const auto constant = degrees.constant()) {
+    const Mat3 matrix = Placement(Vec3{0.0}, {0.0, 0.0, *constant}, Vec3{1.0}).rest_from_local();
+    const double sine = matrix[0][1];
+    const double cosine = matrix[0][0];
+    return {composer.constant(sine), composer.constant(cosine), sine, cosine};
+  }
+  const GraphNode radians = composer.apply(Operation::multiply, composer.insert(degrees, at),
+                                           composer.constant(std::numbers::pi / 180.0));
+  return {composer.apply(Operation::sin, radians), composer.apply(Operation::cos, radians), {}, {}};
+}
+
+/// About `axis`: from the next one to the one after that; back if not `forward`.
+void rotate(Composer& composer, int axis, const Expression& degrees, bool forward, MotionCoordinates& x) {
+  const Turn turn = turn_by(composer, degrees, x);
+  if (turn.constant_cosine == 1.0) return;
+  GraphNode& a = x[static_cast<std::size_t>((axis + 1) % 3)];
+  GraphNode& b = x[static_cast<std::size_t>((axis + 2) % 3)];
+  const GraphNode a_cosine = times(composer, turn.cosine, turn.constant_cosine, a);
+  const GraphNode a_sine = times(composer, turn.sine, turn.constant_sine, a);
+  const GraphNode b_cosine = times(composer, turn.cosine, turn.constant_cosine, b);
+  const GraphNode b_sine = times(composer, turn.sine, turn.constant_sine, b);
+  a = composer.apply(forward ? Operation::subtract : Operation::add, a_cosine, b_sine);
+  b = composer.apply(forward ? Operation::add : Operation::subtract, b_cosine, a_sine);
+}
+
+/// x·n as a node.
+GraphNode along(Composer& composer, const Vec3& n, const MotionCoordinates& x) {
+  GraphNode sum = composer.constant(0.0);
+  for (int i = 0; i < 3; ++i) {
+    if (n[i] == 0.0) continue;
+    const GraphNode term = times(composer, composer.constant(n[i]), n[i], x[static_cast<std::size_t>(i)]);
+    sum = composer.apply(Operation::add, sum, term);
+  }
+  return sum;
+}
+
+/// x + way n.
+void move_along(Composer& composer, const Vec3& n, GraphNode way, MotionCoordinates& x) {
+  for (int i = 0; i < 3; ++i) {
+    if (n[i] == 0.0) continue;
+    GraphNode& to = x[static_cast<std::size_t>(i)];
+    to = composer.apply(Operation::add, to, times(composer, composer.constant(n[i]), n[i], way));
+  }
+}
+
+/// Equation (38): ξ = X·n + 1/a becomes √(ξ² ± t²).
+void fly(Composer& composer, const RocketFlight& rocket, bool forward, MotionCoordinates& x) {
+  const GraphNode time = times(composer, composer.constant(rocket.c), rocket.c, x[ImplicitFormula::t]);
+  const GraphNode offset = composer.constant(1.0 / rocket.acceleration);
+  const GraphNode here = composer.apply(Operation::add, along(composer, rocket.along, x), offset);
+  const GraphNode square = composer.apply(Operation::square, here);
+  const GraphNode other = composer.apply(forward ? Operation::add : Operation::subtract, square,
+                                         composer.apply(Operation::square, time));
+  GraphNode there = composer.apply(Operation::sqrt, other);
+  if (rocket.acceleration < 0.0) there = composer.apply(Operation::negate, there);
+  move_along(composer, rocket.along, composer.apply(Operation::subtract, there, here), x);
+}
+
+}  // namespace
+
+bool MotionLevel::moves() const {
+  return rocket || !constants_of(position) || !constants_of(rotate) || !constants_of(scale);
+}
+
+std::array<Expression, 3> constant_formulas(const Vec3& values) {
+  return {constant_expression(values.x), constant_expression(values.y), constant_expression(values.z)};
+}
+
+std::optional<Vec3> constants_of(const std::array<Expression, 3>& formulas) {
+  Vec3 values{0.0};
+  for (int i = 0; i < 3; ++i) {
+    const auto constant = formulas[static_cast<std::size_t>(i)].constant();
+    if (!constant) return std::nullopt;
+    values[i] = *constant;
+  }
+  return values;
+}
+
+Expression formula_of_time(const ImageValues& values, const Node& written) {
+  if (const auto* number = std::get_if<double>(&written.value)) return constant_expression(*number + 0.0);
+  const auto& formula = std::get<Expression>(written.value);
+  Composer composer(ImplicitFormula::variables);
+  const GraphNode t = composer.variable(ImplicitFormula::t);
+  return composer.expression(insert_in_own_time(composer, values, formula, {}, t), formula.text());
+}
+
+namespace {
+
+MotionCoordinates into_all(Composer& composer, const std::vector<MotionLevel>& levels, MotionCoordinates x) {
+  for (const MotionLevel& level : levels) x = into(composer, level, x);
+  return x;
+}
+
+MotionCoordinates out_of_all(Composer& composer, const std::vector<MotionLevel>& levels,
+                             MotionCoordinates x) {
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level) x = out_of(composer, *level, x);
+  return x;
+}
+
+}  // namespace
+
+MatterMotion::Body body_of(const std::vector<MotionLevel>& levels) {
+  return body_within(levels, {});
+}
+
+MatterMotion::Body body_within(const std::vector<MotionLevel>& levels,
+                               const std::vector<MotionLevel>& within) {
+  Composer composer(ImplicitFormula::variables);
+  const MotionCoordinates given = variables_of(composer);
+  const MotionCoordinates place = into_all(composer, within, out_of_all(composer, levels, given));
+  const MotionCoordinates point = into_all(composer, levels, out_of_all(composer, within, given));
+  MatterMotion::Body body;
+  for (std::size_t i = 0; i < 3; ++i) {
+    body.place[i] = composer.expression(place[i], "place");
+    body.point[i] = composer.expression(point[i], "body point");
+  }
+  return body;
+}
+
+Expression moved_formula(const Expression& f, const std::vector<MotionLevel>& levels) {
+  Composer composer(ImplicitFormula::variables);
+  const MotionCoordinates x = into_all(composer, levels, variables_of(composer));
+  return composer.expression(composer.insert(f, x), f.text() + ", in motion");
+}
+
+MotionCoordinates into(Composer& composer, const MotionLevel& level, MotionCoordinates x) {
+  const MotionCoordinates outer = x;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (level.position[i].constant() == 0.0) continue;
+    x[i] = composer.apply(Operation::subtract, x[i], composer.insert(level.position[i], outer));
+  }
+  if (level.rocket) fly(composer, *level.rocket, false, x);
+  for (int axis = 2; axis >= 0; --axis)
+    rotate(composer, axis, level.rotate[static_cast<std::size_t>(axis)], false, x);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (level.scale[i].constant() == 1.0) continue;
+    x[i] = composer.apply(Operation::divide, x[i], composer.insert(level.scale[i], outer));
+  }
+  return x;
+}
+
+MotionCoordinates out_of(Composer& composer, const MotionLevel& level, MotionCoordinates x) {
+  const MotionCoordinates inner = x;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const GraphNode factor = composer.insert(level.scale[i], inner);
+    x[i] = times(composer, factor, level.scale[i].constant(), x[i]);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    rotate(composer, axis, level.rotate[static_cast<std::size_t>(axis)], true, x);
+  if (level.rocket) fly(composer, *level.rocket, true, x);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (level.position[i].constant() == 0.0) continue;
+    x[i] = composer.apply(Operation::add, x[i], composer.insert(level.position[i], inner));
+  }
+  return x;
+}
+
+}  // namespace backlight

@@ -1,0 +1,271 @@
+#include "speed_proof.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "backlight/expression/enclosure.h"
+#include "backlight/surface/implicit.h"
+#include "backlight/surface/placement.h"
+#include "backlight/surface/surface_set.h"
+#include "words.h"
+
+namespace backlight {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double size_of(double lower, double upper) {
+  return lower <= upper ? std::max(std::abs(lower), std::abs(upper)) : infinity;
+}
+
+/// Bounds of |values| and |rates| of three formulas over some times.
+struct Sizes {
+  Vec3 value{0.0};
+  Vec3 rate{0.0};
+};
+
+Sizes sizes_of(const std::array<Expression, 3>& formulas, double from, double to) {
+  Sizes sizes;
+  if (const auto constant = constants_of(formulas)) return {glm::abs(*constant), Vec3{0.0}};
+  for (int i = 0; i < 3; ++i) {
+    const IntervalSlope range = over_times(formulas[static_cast<std::size_t>(i)], from, to);
+    const bool smooth = range.value.continuity == Continuity::continuous;
+    sizes.value[i] = smooth ? size_of(range.value.lower, range.value.upper) : infinity;
+    sizes.rate[i] = smooth ? size_of(range.slope.lower, range.slope.upper) : infinity;
+  }
+  return sizes;
+}
+
+double largest(const Vec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+double farthest(const std::vector<HullBall>& hull) {
+  double reach = 0.0;
+  for (const HullBall& ball : hull) reach = std::max(reach, glm::length(ball.centre) + ball.radius);
+  return reach;
+}
+
+/// How far the hull reaches from the line through the origin along `axis`.
+double reach_from(const Vec3& axis, const std::vector<HullBall>& hull) {
+  double reach = 0.0;
+  for (const HullBall& ball : hull) {
+    reach = std::max(reach, glm::length(glm::cross(axis, ball.centre)) + ball.radius);
+  }
+  return reach;
+}
+
+std::vector<HullBall> placed(const std::vector<HullBall>& hull, const Placement& placement) {
+  std::vector<HullBall> result;
+  for (const HullBall& ball : hull) {
+    result.push_back({placement.position() + placement.rest_from_local() * ball.centre,
+                      largest(glm::abs(placement.scale())) * ball.radius});
+  }
+  return result;
+}
+
+/// The hull with a constant rotation and scale, or what is turned and stretched in any way.
+std::vector<HullBall> stretched(const std::vector<HullBall>& hull, const MotionLevel& level,
+                                const Sizes& scale) {
+  if (const auto constant = constants_of(level.scale))
+    return placed(hull, Placement(Vec3{0.0}, Vec3{0.0}, *constant));
+  double reach = 0.0;
+  for (const HullBall& ball : hull) {
+    reach = std::max(reach,
+                     glm::length(glm::abs(ball.centre) * scale.value) + largest(scale.value) * ball.radius);
+  }
+  return {{Vec3{0.0}, reach}};
+}
+
+/// What turning adds to the speed: for each angle its rate times the distance from its axis, which those
+/// inside of it have turned the hull about.
+double turning_speed(const MotionLevel& level, const Sizes& rotate, std::vector<HullBall> hull) {
+  double speed = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 about{0.0};
+    about[axis] = 1.0;
+    speed += rotate.rate[axis] * (std::numbers::pi / 180.0) * reach_from(about, hull);
+    Vec3 angles{0.0};
+    const auto constant = level.rotate[static_cast<std::size_t>(axis)].constant();
+    if (constant) {
+      angles[axis] = *constant;
+      hull = placed(hull, Placement(Vec3{0.0}, angles, Vec3{1.0}));
+    } else {
+      hull = {{Vec3{0.0}, farthest(hull)}};
+    }
+  }
+  return speed;
+}
+
+/// Of the point with least ξ, at a time of the frame; 1 where there is none that can fly so.
+double flight_speed(const RocketFlight& rocket, const std::vector<HullBall>& hull, double time) {
+  double least = infinity;
+  for (const HullBall& ball : hull) {
+    least = std::min(least, 1.0 / rocket.acceleration + glm::dot(ball.centre, rocket.along) - ball.radius);
+  }
+  const double way = rocket.c * time;
+  return least > 0.0 ? way / std::hypot(least, way) : 1.0;
+}
+
+struct Speeds {
+  double body;
+  double centre;
+};
+
+/// Bounds over times in [from, to], in units of c: |v| <= |ċ| + Σ |α̇| ρ + |Ṡ X| + |S| v_inner, from the
+/// inside outwards.
+Speeds speeds(const std::vector<MotionLevel>& levels, std::vector<HullBall> hull, double c, double from,
+              double to) {
+  double body = 0.0;
+  double centre = 0.0;
+  double centre_reach = 0.0;
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+    const Sizes position = sizes_of(level->position, from, to);
+    const Sizes rotate = sizes_of(level->rotate, from, to);
+    const Sizes scale = sizes_of(level->scale, from, to);
+    const double stretching = largest(scale.rate) * farthest(hull);
+    const double stretch = largest(scale.value);
+    hull = stretched(hull, *level, scale);
+    const double turning = turning_speed(*level, rotate, hull);
+    // Equation (38): of a point at ξ, |ct|/√(ξ² + c²t²).
+    const double path = level->rocket
+                            ? c * flight_speed(*level->rocket, hull, std::max(std::abs(from), std::abs(to)))
+                            : glm::length(position.rate);
+    body = stretch * body + stretching + turning + path;
+    const double angular = (rotate.rate.x + rotate.rate.y + rotate.rate.z) * (std::numbers::pi / 180.0);
+    centre = stretch * centre + (largest(scale.rate) + angular * stretch) * centre_reach + path;
+    centre_reach = stretch * centre_reach + glm::length(position.value);
+    const auto at = constants_of(level->position);
+    const auto turned = constants_of(level->rotate);
+    hull = at && turned ? placed(hull, Placement(*at, *turned, Vec3{1.0}))
+                        : std::vector<HullBall>{{Vec3{0.0}, farthest(hull) + glm::length(position.value)}};
+  }
+  return {body / c, std::min(centre, body) / c};
+}
+
+}  // namespace
+
+IntervalSlope over_times(const Expression& formula, double from, double to) {
+  constexpr std::array<double, 4> origin{};
+  constexpr std::array<double, 4> direction{0.0, 0.0, 0.0, 1.0};
+  return enclose(formula.tape(), VariableLine{origin, direction}, from, to);
+}
+
+std::vector<HullBall> hull_of(const Shape& shape) {
+  const auto& v = shape.values;
+  const auto box = [](const Vec3& low, const Vec3& high) {
+    std::vector<HullBall> corners;
+    for (int i = 0; i < 8; ++i) {
+      corners.push_back(
+          {{(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z}});
+    }
+    return corners;
+  };
+  std::vector<HullBall> hull;
+  // A circle about y, within a polygon.
+  const auto add_ring = [&hull](double radius, double y, double thick) {
+    constexpr int corners = 4096;
+    const double out = radius / std::cos(std::numbers::pi / corners);
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / corners;
+      hull.push_back({{out * std::cos(angle), y, out * std::sin(angle)}, thick});
+    }
+  };
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return {{Vec3{0.0}, v[0]}};
+    case ShapeKind::box:
+      return box({-0.5 * v[0], -0.5 * v[1], -0.5 * v[2]}, {0.5 * v[0], 0.5 * v[1], 0.5 * v[2]});
+    case ShapeKind::cylinder:
+      add_ring(v[0], -0.5 * v[1], 0.0);
+      add_ring(v[0], 0.5 * v[1], 0.0);
+      return hull;
+    case ShapeKind::cone:
+      add_ring(v[0], -0.5 * v[2], 0.0);
+      add_ring(v[1], 0.5 * v[2], 0.0);
+      return hull;
+    case ShapeKind::torus:
+      add_ring(v[0], 0.0, v[1]);
+      return hull;
+    case ShapeKind::disk:
+      add_ring(v[0], 0.0, 0.0);
+      return hull;
+    case ShapeKind::implicit:
+      return box({v[0], v[1], v[2]}, {v[3], v[4], v[5]});
+    case ShapeKind::plane:
+    case ShapeKind::quadric:
+    case ShapeKind::csg:
+      break;
+  }
+  SurfaceSet one;
+  one.add(shape, Placement{});
+  return {{Vec3{0.0}, one.bounds(0).radius}};
+}
+
+SpeedProver::SpeedProver(Compilation& c, int frame) : c_(c) {
+  const InertialFrame& its = c.scene.frames[static_cast<std::size_t>(frame)].motion;
+  const CameraView& camera = c.scene.camera;
+  const ExtendedEvent event = to_frame(its, camera.event);
+  const double gamma = relative_motion(its.celerity, camera.celerity).gamma;
+  const double aside = camera.stereo ? gamma * camera.stereo->separation : 0.0;  // of an eye's event
+  camera_ = event.x.rounded();
+  last_ = (double(event.t) + aside) / c.scene.c;
+}
+
+std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::vector<MotionLevel>& levels,
+                                             const std::vector<HullBall>& hull, const Vec3& offset) const {
+  const std::array<double, 4> now{0.0, 0.0, 0.0, last_};
+  const MatterMotion::Body body = body_of(levels);
+  const Vec3 here =
+      offset + Vec3{body.place[0].evaluate(now), body.place[1].evaluate(now), body.place[2].evaluate(now)};
+  const double c = c_.scene.c;
+  const double distance = (glm::length(camera_ - here) + farthest(hull)) / c;
+  // Shadows are thrown by what was there before it is seen.
+  const double reach = 16.0 * distance;
+  const SpeedProof proof = prove_speed(levels, hull, c, last_, reach);
+  if (std::isinf(proof.begins) || proof.begins <= last_ - reach) return proof;
+  // As early can light have left it that reaches the camera now.
+  const double seen = distance / (1.0 - std::min(proof.speed, 0.999));
+  if (proof.begins < last_ - 1.000001 * seen) return proof;
+  const char* key = "position";
+  for (const char* written : {"scale", "rotate", "position"}) {
+    if (table.node_of(written) != nullptr && c_.values.description.depends_on_t(*table.node_of(written)))
+      key = written;
+  }
+  table.error(
+      key,
+      "its matter cannot be shown to be slower than light, c = " + number_text(c) +
+          ", at t = " + number_text(proof.begins) + ": the bound on its speed there is " +
+          number_text(proof.speed_before * c),
+      "the velocity is derived from the formulas of t; write velocity = [0, 0, 0] for a thing that is put "
+      "somewhere else for each image");
+  return std::nullopt;
+}
+
+SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector<HullBall>& hull, double c,
+                       double last, double reach) {
+  const auto below = [](const Speeds& its) { return its.body < 1.0; };
+  if (const Speeds all = speeds(levels, hull, c, -always, always); below(all)) return {all.body, all.centre};
+  SpeedProof proof;
+  proof.begins = last;
+  constexpr int most_pieces = 40'000;
+  double length = reach / 64.0;
+  for (int i = 0; i < most_pieces && proof.begins > last - reach; ++i) {
+    const double from = proof.begins - length;
+    const Speeds piece = speeds(levels, hull, c, from, proof.begins);
+    if (below(piece)) {
+      proof.speed = std::max(proof.speed, piece.body);
+      proof.centre_speed = std::max(proof.centre_speed, piece.centre);
+      proof.begins = from;
+      length *= 1.5;
+    } else {
+      proof.speed_before = piece.body;
+      length *= 0.5;
+      if (!(length > 1e-9 * reach)) break;
+    }
+  }
+  return proof;
+}
+
+}  // namespace backlight

@@ -1,0 +1,64 @@
+#include "backlight/surface/matter_motion.h"
+
+#include <cmath>
+#include <utility>
+
+#include "own_time.h"
+
+namespace backlight {
+namespace {
+
+Vec3 values_of(const MatterMotion::Map& map, const Vec3& x, double seconds) {
+  const std::array<double, 4> at{x.x, x.y, x.z, seconds};
+  return {map[0].evaluate(at), map[1].evaluate(at), map[2].evaluate(at)};
+}
+
+/// The map's values and their rates of change, x held.
+MatterMotion::Centre rates_of(const MatterMotion::Map& map, const Vec3& x, double seconds, double rate) {
+  const std::array<Dual, 4> at{Dual{x.x, 0.0}, Dual{x.y, 0.0}, Dual{x.z, 0.0}, Dual{seconds, rate}};
+  MatterMotion::Centre result;
+  for (int i = 0; i < 3; ++i) {
+    const Dual value = map[static_cast<std::size_t>(i)].evaluate(std::span<const Dual>(at));
+    result.place[i] = value.value;
+    result.velocity[i] = value.derivative;
+  }
+  return result;
+}
+
+}  // namespace
+
+MatterMotion::MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball, Time time)
+    : body_(std::move(body)), body_shape_(body_shape), ball_(std::move(ball)), time_(time) {}
+
+MatterMotion::MatterMotion(Map velocity, Time time) : velocity_(std::move(velocity)), time_(time) {}
+
+Vec3 MatterMotion::body_point(const Vec3& place, double time) const {
+  return body_ ? values_of(body_->point, place, time_.seconds_per_length * time) : place;
+}
+
+Vec3 MatterMotion::velocity_of(const Vec3& point, double time) const {
+  return rates_of(body_->place, point, time_.seconds_per_length * time, time_.seconds_per_length).velocity;
+}
+
+Vec3 MatterMotion::given_velocity(const Vec3& place, double time) const {
+  return values_of(*velocity_, place, time_.seconds_per_length * time) * time_.seconds_per_length;
+}
+
+Vec3 MatterMotion::velocity(const Vec3& place, double time) const {
+  return body_ ? velocity_of(body_point(place, time), time) : given_velocity(place, time);
+}
+
+double MatterMotion::own_time(const Vec3& place, double time, const Mat3& rest_from_local) const {
+  if (!body_) {
+    const auto flow = [this](const Vec3& at, double when) { return given_velocity(at, when); };
+    return own_time_of_flow(flow, rest_from_local, place, time);
+  }
+  const Vec3 point = body_point(place, time);
+  return own_time_along([&](double when) { return rest_from_local * velocity_of(point, when); }, time);
+}
+
+MatterMotion::Centre MatterMotion::centre(double time) const {
+  return rates_of(ball_->path, Vec3{0.0}, time_.seconds_per_length * time, time_.seconds_per_length);
+}
+
+}  // namespace backlight
