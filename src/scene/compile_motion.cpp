@@ -20,7 +20,7 @@ namespace {
 bool place_uses_time(const Description& description, const Node& table) {
   for (const std::string_view key : {"position", "rotate", "scale"}) {
     const Entry* entry = find(table, key);
-    if (entry != nullptr && description.depends_on_t(entry->node)) return true;
+    if (entry != nullptr && uses_time(description, entry->node)) return true;
   }
   const Entry* parts = find(table, "part");
   if (parts == nullptr || parts->node.array() == nullptr) return false;
@@ -149,7 +149,7 @@ bool turns_in_itself(const Shape& shape, const std::vector<MotionLevel>& levels)
 /// Whether anything that matter has by its own time depends on it: a material, its presence, the light around
 /// it.
 bool lives_by_own_time(const Description& description, const Node& node, bool of_matter) {
-  if (of_matter && std::holds_alternative<Expression>(node.value)) return description.depends_on_t(node);
+  if (of_matter && uses_time(description, node)) return true;
   if (const NodeArray* array = node.array()) {
     return std::ranges::any_of(
         *array, [&](const Node& one) { return lives_by_own_time(description, one, of_matter); });
@@ -351,7 +351,7 @@ class MotionCompiler {
 
 std::array<Expression, 3> formulas_of(const TableView& table, std::string_view key, const Vec3& now) {
   const Node* node = table.node_of(key);
-  if (node == nullptr || !table.values().description.depends_on_t(*node)) return constant_formulas(now);
+  if (node == nullptr || !uses_time(table.values().description, *node)) return constant_formulas(now);
   std::array<Expression, 3> formulas;
   for (std::size_t i = 0; i < 3; ++i) {
     const NodeArray* three = node->array();
@@ -376,7 +376,7 @@ void take_rocket(const TableView& table, double c, MotionLevel& level) {
   level.rocket = {rocket.number("acceleration") / (c * c), along->rounded(), c};
   for (const char* key : {"position", "rotate", "scale"}) {
     const Entry* written = find(*table.node(), key);
-    if (written != nullptr && table.values().description.depends_on_t(written->node)) {
+    if (written != nullptr && uses_time(table.values().description, written->node)) {
       table.error(key,
                   std::string("what flies with a rocket cannot also move by a formula of t in '") + key + "'",
                   "a solid's parts can, within it");

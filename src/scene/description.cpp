@@ -30,13 +30,6 @@ bool Description::depends_on_t(const Expression& expression) const {
                      [&](std::size_t i) { return i >= first && follows_t[i - first]; });
 }
 
-bool Description::depends_on_t(const Node& value) const {
-  if (const auto* expression = std::get_if<Expression>(&value.value)) return depends_on_t(*expression);
-  const NodeArray* array = value.array();
-  return array != nullptr &&
-         std::ranges::any_of(*array, [&](const Node& element) { return depends_on_t(element); });
-}
-
 std::vector<const Entry*> Description::parameters() const {
   std::vector<const Entry*> entries(variables.size(), nullptr);
   const Entry* table = find(root, "params");

@@ -160,11 +160,11 @@ KeyTable object() {
   table.keys.push_back(boolean("casts_shadow", true,
                                "Whether it is in the way of light, its own surface's included. False: it "
                                "is seen and lit like any other, and hides no lamp: the bulb about one."));
-  table.keys.push_back(own(number(
-      "visible", Nothing{}, "",
-      "It is there while this is positive: a flash, a door that shuts, a digit of a clock. Without it, "
-      "it is always there.",
-      {})));
+  table.keys.push_back(
+      own(number("visible", Nothing{}, "",
+                 "A formula of `t`, the own time of its matter: it is there while that is positive. A "
+                 "flash, a door that shuts, a digit of a clock. Without it, it is always there.",
+                 {})));
   table.keys.push_back(structured("repeat", {{ValueKind::table, 0, "object.repeat"}},
                                   "Copies of it, all at rest in the same frame and of the same `objectId`."));
   add_motion_or_frame(table.keys);

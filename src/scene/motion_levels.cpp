@@ -80,7 +80,7 @@ void move_along(Composer& composer, const Vec3& n, GraphNode way, MotionCoordina
   }
 }
 
-/// Equation (38): ξ = X·n + 1/a becomes √(ξ² ± t²).
+/// Equation (27): ξ = X·n + 1/a becomes √(ξ² ± t²).
 void fly(Composer& composer, const RocketFlight& rocket, bool forward, MotionCoordinates& x) {
   const GraphNode time = times(composer, composer.constant(rocket.c), rocket.c, x[ImplicitFormula::t]);
   const GraphNode offset = composer.constant(1.0 / rocket.acceleration);
@@ -115,10 +115,10 @@ std::optional<Vec3> constants_of(const std::array<Expression, 3>& formulas) {
 
 Expression formula_of_time(const ImageValues& values, const Node& written) {
   if (const auto* number = std::get_if<double>(&written.value)) return constant_expression(*number + 0.0);
-  const auto& formula = std::get<Expression>(written.value);
+  const Expression formula = in_own_time(values, std::get<Expression>(written.value));
   Composer composer(ImplicitFormula::variables);
-  const GraphNode t = composer.variable(ImplicitFormula::t);
-  return composer.expression(insert_in_own_time(composer, values, formula, {}, t), formula.text());
+  const std::array<GraphNode, 1> time{composer.variable(ImplicitFormula::t)};
+  return composer.expression(composer.insert(formula, time), formula.text());
 }
 
 namespace {

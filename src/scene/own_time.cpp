@@ -1,6 +1,6 @@
 #include "own_time.h"
 
-#include <vector>
+#include "backlight/expression/compose.h"
 
 namespace backlight {
 namespace {
@@ -24,31 +24,21 @@ std::vector<bool> inserted_parameters(const Description& description, const Expr
 
 }  // namespace
 
-Composer::Node insert_in_own_time(Composer& composer, const ImageValues& values, const Expression& expression,
-                                  std::span<const Composer::Node> coordinates, Composer::Node t) {
+Expression in_own_time(const ImageValues& values, const Expression& expression) {
   const Description& description = values.description;
+  const std::size_t coordinates = expression.variables() - description.variables.size();
   const std::vector<const Entry*> parameters = description.parameters();
-  const std::vector<bool> inserted =
-      inserted_parameters(description, expression, parameters, coordinates.size());
-  std::vector<Composer::Node> nodes(coordinates.begin(), coordinates.end());
-  nodes.push_back(t);
+  const std::vector<bool> inserted = inserted_parameters(description, expression, parameters, coordinates);
+  Composer composer(coordinates + 1);
+  std::vector<Composer::Node> nodes;
+  for (std::size_t i = 0; i <= coordinates; ++i) nodes.push_back(composer.variable(i));
   for (std::size_t i = variable_t + 1; i < values.variables.size(); ++i)
     nodes.push_back(composer.constant(values.variables[i]));
-  const std::span<Composer::Node> own = std::span(nodes).subspan(coordinates.size());  // from t on
+  const std::span<Composer::Node> own = std::span(nodes).subspan(coordinates);  // from t on
   for (const std::size_t i : description.parameter_order) {
     if (inserted[i]) own[i] = composer.insert(std::get<Expression>(parameters[i]->node.value), own);
   }
-  return composer.insert(expression, nodes);
-}
-
-Expression in_own_time(const ImageValues& values, const Expression& expression) {
-  const std::size_t coordinates = expression.variables() - values.description.variables.size();
-  Composer composer(coordinates + 1);
-  std::vector<Composer::Node> nodes;
-  for (std::size_t i = 0; i < coordinates; ++i) nodes.push_back(composer.variable(i));
-  const Composer::Node root =
-      insert_in_own_time(composer, values, expression, nodes, composer.variable(coordinates));
-  return composer.expression(root, expression.text());
+  return composer.expression(composer.insert(expression, nodes), expression.text());
 }
 
 Expression constant_formula(double value) {

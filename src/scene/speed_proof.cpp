@@ -128,7 +128,7 @@ Speeds speeds(const std::vector<MotionLevel>& levels, std::vector<HullBall> hull
     const double stretch = largest(scale.value);
     hull = stretched(hull, *level, scale);
     const double turning = turning_speed(*level, rotate, hull);
-    // Equation (38): of a point at ξ, |ct|/√(ξ² + c²t²).
+    // Equation (27): of a point at ξ, |ct|/√(ξ² + c²t²).
     const double path = level->rocket
                             ? c * flight_speed(*level->rocket, hull, std::max(std::abs(from), std::abs(to)))
                             : glm::length(position.rate);
@@ -230,7 +230,7 @@ std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::
   if (proof.begins < last_ - 1.000001 * seen) return proof;
   const char* key = "position";
   for (const char* written : {"scale", "rotate", "position"}) {
-    if (table.node_of(written) != nullptr && c_.values.description.depends_on_t(*table.node_of(written)))
+    if (table.node_of(written) != nullptr && uses_time(c_.values.description, *table.node_of(written)))
       key = written;
   }
   table.error(
@@ -241,6 +241,13 @@ std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::
       "the velocity is derived from the formulas of t; write velocity = [0, 0, 0] for a thing that is put "
       "somewhere else for each image");
   return std::nullopt;
+}
+
+bool uses_time(const Description& description, const Node& node) {
+  if (const auto* formula = std::get_if<Expression>(&node.value)) return description.depends_on_t(*formula);
+  const NodeArray* array = node.array();
+  return array != nullptr &&
+         std::ranges::any_of(*array, [&](const Node& one) { return uses_time(description, one); });
 }
 
 SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector<HullBall>& hull, double c,

@@ -1,4 +1,4 @@
-// That nothing of a body in motion reaches the speed of light: docs/physics.md equation (37).
+// That nothing of a body in motion reaches the speed of light: docs/physics.md equation (26).
 #pragma once
 
 #include <limits>
@@ -49,6 +49,9 @@ class SpeedProver {
   Vec3 camera_{0.0};  ///< in the frame
   double last_ = 0.0;
 };
+
+/// Whether a value as written depends on t.
+bool uses_time(const Description& description, const Node& node);
 
 /// Proved backwards from `last`: as far as it is below the speed of light, or until nothing of it could be
 /// seen in a picture of things within `reach` seconds.

@@ -14,7 +14,7 @@ struct WayToLight {
       {};  ///< from the light's frame to the lamp's own, if it moves there
 };
 
-// Of a lamp on a path, equation (40): h(t) = t_P - t - |x_P - c(t)| falls, since the lamp is slower than
+// Of a lamp on a path, equation (29): h(t) = t_P - t - |x_P - c(t)| falls, since the lamp is slower than
 // light.
 WayToLight way_to_moving(const Event<Source>& event, const Light& light) {
   const MatterMotion& motion = *light.motion;
@@ -79,7 +79,7 @@ WayToLight way_to_light(const Hub& hub, RayInFrames& rays, const SeenPoint& poin
 
 namespace {
 
-// Into the frame of the matter: equations (34) and (35).
+// Into the frame of the matter: equations (23) and (24).
 void go_along(const RestRayEvents& ray, bool light_delay, SeenPoint& point) {
   point.proper_time = point.surface.own_time;
   point.matter = boost_by<Rest, Rest>(point.surface.velocity);

@@ -102,8 +102,6 @@ struct Description {
   /// Whether the expression depends on `t`, if through parameters. It is of `variables`, or of
   /// formula_variables().
   [[nodiscard]] bool depends_on_t(const Expression& expression) const;
-  /// The same of a value as written: of any element of an array.
-  [[nodiscard]] bool depends_on_t(const Node& value) const;
 
   /// Where each of `variables` is written; null for those that are no parameters.
   [[nodiscard]] std::vector<const Entry*> parameters() const;

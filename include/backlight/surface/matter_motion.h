@@ -12,7 +12,7 @@
 
 namespace backlight {
 
-/// How the matter of a surface moves: docs/physics.md section 13. Places are in the local coordinates of the
+/// How the matter of a surface moves: docs/physics.md section 10. Places are in the local coordinates of the
 /// surface, which rest in the frame; times are the frame's (c = 1), and velocities in local coordinates by
 /// that time. Immutable; safe to use from many threads.
 class MatterMotion {
@@ -20,7 +20,7 @@ class MatterMotion {
   /// Three formulas of x, y, z and t, t in seconds.
   using Map = std::array<Expression, 3>;
 
-  /// Equation (33): a body point is somewhere at each time, and each place is at each time a body point's.
+  /// Equation (22): a body point is somewhere at each time, and each place is at each time a body point's.
   struct Body {
     Map place;  ///< of a body point
     Map point;  ///< of a place: which body point is there
@@ -60,7 +60,7 @@ class MatterMotion {
 
   /// Whether own times are asked for.
   [[nodiscard]] bool counts_time() const { return time_.counts; }
-  /// What the clock of the matter at a place has counted since the frame's time 0: equation (36).
+  /// What the clock of the matter at a place has counted since the frame's time 0: equation (25).
   /// `rest_from_local`: what makes velocities of the frame's of local ones.
   [[nodiscard]] double own_time(const Vec3& place, double time, const Mat3& rest_from_local) const;
 
