@@ -5,11 +5,12 @@
 
 #include "backlight/colour/film_integral.h"
 #include "backlight/colour/upsampling.h"
+#include "sheet.h"
 
 namespace backlight {
+
 int checker_slot(const Checker& checker, double u, double v) {
-  const double square = std::floor(u / checker.size) + std::floor(v / checker.size);
-  return std::fmod(square, 2.0) == 0.0 ? 0 : 1;
+  return is_odd_square(Lanes<1>(checker.size), Lanes<1>(u), Lanes<1>(v)).v ? 1 : 0;
 }
 
 LinearRgb texture_reflectance(const Material& material, double u, double v) {
@@ -61,9 +62,7 @@ LinearRgb emitted_colour(const ShadingContext& context, int index, Scratch& s) {
   return material.emission ? shifted_colour(context.spectra->emission(index), s) : LinearRgb{0.0};
 }
 
-namespace {
-
-SeenSpectrum seen_reflectance(const ShadingContext& context, int index, double u, double v, Scratch& s) {
+SeenSpectrum seen_reflectance(const ShadingContext& context, int index, double u, double v, Spectrum& texel) {
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
   if (!material.texture) {
     const int slot = material.checker ? checker_slot(*material.checker, u, v) : 0;
@@ -71,11 +70,9 @@ SeenSpectrum seen_reflectance(const ShadingContext& context, int index, double u
   }
   const auto [shape, set] =
       context.wavelengths->upsampled(texture_reflectance(material, u, v), context.spectra->steepest_light());
-  s.texel = Spectrum::sigmoid_reflectance(shape, material.uv, material.ir);
-  return {&s.texel, set};
+  texel = Spectrum::sigmoid_reflectance(shape, material.uv, material.ir);
+  return {&texel, set};
 }
-
-}  // namespace
 
 namespace {
 
@@ -86,8 +83,8 @@ void sample(const SeenSpectrum& reflectance, Scratch& s) {
 
 }  // namespace
 
-Reflectance fill_reflectance(const ShadingContext& context, int index, double u, double v, Scratch& s) {
-  Reflectance reflectance{seen_reflectance(context, index, u, v, s), {}};
+Reflectance fill_reflectance(const SeenSpectrum& seen, Scratch& s) {
+  Reflectance reflectance{seen, {}};
   const Spectrum& spectrum = *reflectance.seen.spectrum;
   if (spectrum.is_grey()) {
     reflectance.grey = spectrum.at(visible_begin_nm);

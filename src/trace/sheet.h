@@ -159,6 +159,10 @@ struct PointSheet {
   alignas(64) double irradiance[sheet_size];
   alignas(64) double specular[sheet_size];
   alignas(64) double diffuse[3][sheet_size];  ///< film colour under this lamp
+  // Of shifted colours:
+  std::uint64_t odd_squares = 0;           ///< of a checker
+  alignas(64) double shift[sheet_size];    ///< D from the lamp to the camera
+  alignas(64) double lamp[4][sheet_size];  ///< film colour of all of its light, and that's luminance
   alignas(64) double rgb[3][sheet_size];
 
   /// The lit ones, one bit each.
@@ -199,14 +203,28 @@ struct LightSpan {
   double reach = 0.0;
 };
 
+/// Whether the sum of the numbers of a square, rounded down in both directions, is odd (or not a number).
+template <class V>
+BACKLIGHT_LANES typename V::Mask is_odd_square(V size, V u, V v) {
+  const auto rounded_down = [](V x) __attribute__((always_inline)) {
+    const V near = (x + V(0x1.8p52)) - V(0x1.8p52);  // the nearest whole number; beyond 2^51 maybe another
+    const V down = select(near > x, near - V(1.0), near);
+    return select(magnitude(x) < V(0x1p51), down, x);
+  };
+  const V half = V(0.5) * (rounded_down(u / size) + rounded_down(v / size));
+  return ~(rounded_down(half) == half);
+}
+
 /// How the points of a sheet reflect the light of one lamp.
 struct LaneReflection {
   LaneBrightness brightness;
   bool distant = false;
-  double gamma = 1.0;          ///< of the lamp relative to the surface
-  double specular = 0.0;       ///< k (n+2)/2π; 0: none
-  double shininess = 1.0;      ///< n
-  double lamp[3]{};            ///< its film colour
+  double gamma = 1.0;      ///< of the lamp relative to the surface
+  double specular = 0.0;   ///< k (n+2)/2π; 0: none
+  double shininess = 1.0;  ///< n
+  bool same_lamp = true;   ///< at all points it has the film colour `lamp`, else PointSheet's
+  double lamp[3]{};
+  bool shifted = false;        ///< these colours are at the camera's wavelengths
   bool same_strength = false;  ///< at all points: `strength`, else PointSheet's
   double strength = 0.0;
   bool same_diffuse = false;  ///< at all points: `diffuse`, else PointSheet's
@@ -229,8 +247,8 @@ struct SheetKernels {
   /// axis, of some of the rays.
   void (*gather)(const LaneLamp& lamp, const SheetRays& rays, const SheetHits& hits, const double* axis,
                  LightSpan& span);
-  /// Which of the first `count` hits are of this surface, one bit each.
-  std::uint64_t (*same)(const SheetHits& hits, int count, double who);
+  /// Which of the first `count` numbers are this one, one bit each.
+  std::uint64_t (*same)(const double* numbers, int count, double which);
   /// Which rays are in the cone, one bit each; those of their registers in the frame, into `to`.
   std::uint64_t (*enter)(const LaneFrame& frame, const LaneCone& cone, const SheetRays& rays, RaySheet& to);
   /// The camera rays of the points in their frame, into points.rays.
@@ -254,8 +272,10 @@ struct SheetKernels {
   void (*reflect)(const LaneReflection& reflection, PointSheet& points);
   /// rgb += irradiance (diffuse/π + specular lamp) where lit.
   void (*add_light)(const LaneReflection& reflection, PointSheet& points);
-  /// To the camera: rgb *= F.
-  void (*carry)(const LaneBrightness& brightness, double gamma, PointSheet& points);
+  /// Which of the points are on a checker's odd squares, one bit each.
+  std::uint64_t (*odd_squares)(double size, const PointSheet& points);
+  /// To the camera: rgb *= F, or F D for shifted colours.
+  void (*carry)(const LaneBrightness& brightness, double gamma, bool shifted, PointSheet& points);
 };
 
 /// The kernels, if this machine runs them; `baseline` always does.

@@ -146,11 +146,10 @@ void SheetShader::fill_diffuse(std::size_t light, int index, LaneReflection& ref
     return;
   }
   for (int i = 0; i < p.count; ++i) {
-    const LinearRgb rgb =
-        material.texture
-            ? colours.under(light, texture_reflectance(material, p.points.u[i], p.points.v[i]))
-            : colours.under(light, index, checker_slot(*material.checker, p.points.u[i], p.points.v[i]));
-    put(rgb, p.diffuse, i);
+    const int slot = static_cast<int>(p.odd_squares >> i & 1U);
+    put(material.texture ? colours.under(light, texture_reflectance(material, p.points.u[i], p.points.v[i]))
+                         : colours.under(light, index, slot),
+        p.diffuse, i);
   }
   for (int i = p.count; i < p.padded; ++i) put(LinearRgb{0.0}, p.diffuse, i);
 }
@@ -199,34 +198,34 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
   return true;
 }
 
-void SheetShader::light_rgb(const Material& material, int material_index, const Effects& effects) {
+void SheetShader::shade(const Effects& effects) {
   PointSheet& p = work_.points;
-  const LinearRgb own = material.emission ? material.emission->rgb : LinearRgb{0.0};
-  const double own_rgb[3] = {own.r, own.g, own.b};
-  bool first = true;
+  const int index = p.material[0];
+  const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
   const std::vector<Light>& lights = tracer_.scene().lights;
+  const bool shifted = tracer_.is_spectral() && effects.doppler;
+  bool first = !shifted || !material.emission;
+  const LinearRgb own = first && material.emission ? material.emission->rgb : LinearRgb{0.0};
+  const double own_rgb[3] = {own.r, own.g, own.b};
+  if (!first) fill_emission(index);
+  p.odd_squares = material.checker ? sheets_.kernels().odd_squares(material.checker->size, p) : 0;
+  work_.known_texels = 0;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     LaneReflection reflection;
-    for (int k = 0; k < 3; ++k) reflection.lamp[k] = lights[i].colour.rgb[k];
     if (!light_arrives(i, effects, material, reflection)) continue;
-    fill_diffuse(i, material_index, reflection);
+    if (shifted) {
+      fill_shifted(i, index, reflection);
+    } else {
+      for (int k = 0; k < 3; ++k) reflection.lamp[k] = lights[i].colour.rgb[k];
+      fill_diffuse(i, index, reflection);
+    }
     if (first) reflection.own = own_rgb;
     first = false;
     sheets_.kernels().add_light(reflection, p);
   }
   for (int k = 0; k < 3 && first; ++k) std::fill_n(p.rgb[k], p.padded, own[k]);
   const double gamma = tracer_.hub().frames[frame()].from_camera.gamma();
-  sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, p);
-}
-
-void SheetShader::shade(const Effects& effects) {
-  const int index = work_.points.material[0];
-  const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
-  if (tracer_.is_spectral() && effects.doppler) {
-    light_spectra(material, index, effects);
-  } else {
-    light_rgb(material, index, effects);
-  }
+  sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, shifted, p);
 }
 
 }  // namespace backlight

@@ -52,18 +52,10 @@ struct SheetScratch {
   std::vector<Part> parts;   ///< as found...
   std::vector<Part> sorted;  ///< ...and by group
   PointSheet points;
-  /// What of a lamp reaches them, for spectra.
-  struct Lamp {
-    bool arrives;
-    double lit[sheet_size];
-    double irradiance[sheet_size];
-    double specular[sheet_size];
-    double doppler[sheet_size];
-    bool known;  ///< `colours` are those that the lamp has on the points, at this Doppler factor
-    double known_doppler;
-    LampColours colours;
-  };
-  std::vector<Lamp> lamp_light;
+  /// Reflectances of points of a texture, one bit for each that is known.
+  std::uint64_t known_texels;
+  std::vector<Spectrum> texels;
+  std::vector<SeenSpectrum> seen_texels;
 };
 
 /// Shades sheets of points of one image.
@@ -115,11 +107,14 @@ class SheetShader {
   [[nodiscard]] bool is_alone(int entry) const;
   void shadow_of_distant(std::size_t light);
 
-  void light_rgb(const Material& material, int material_index, const Effects& effects);
   void ambient_arrives(std::size_t light);
   bool light_arrives(std::size_t light, const Effects& effects, const Material& material,
                      LaneReflection& reflection);
-  void light_spectra(const Material& material, int material_index, const Effects& effects);
+  // Shifted colours (sheet_spectra.cpp):
+  void fill_emission(int material);
+  void fill_shifted(std::size_t light, int material, LaneReflection& reflection);
+  [[nodiscard]] std::uint64_t look_up(std::size_t light, int material, std::uint64_t points, bool has_lobe);
+  LampColours colours_at(int lane, std::size_t light, int material);
   [[nodiscard]] std::size_t frame() const { return static_cast<std::size_t>(entry_->frame); }
 
   const Tracer& tracer_;

@@ -83,7 +83,7 @@ class SheetPainter {
       std::uint64_t left = first_bits(sheet.rays.count);
       while (left != 0) {
         const double who = sheet.hits.who[__builtin_ctzll(left)];
-        const std::uint64_t mask = left & scene_.kernels().same(sheet.hits, sheet.rays.count, who);
+        const std::uint64_t mask = left & scene_.kernels().same(sheet.hits.who, sheet.rays.count, who);
         left &= ~mask;
         if (who < 0.0) {
           without_surface(sheet, mask, who == far_hit);

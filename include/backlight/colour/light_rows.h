@@ -28,13 +28,7 @@ class SplineWeights;
 /// one are made when they are first asked for, from any thread, and depend on nothing but the row's number.
 class LightRows {
  public:
-  /// What one row has, of light divided by e^log_scale.
-  struct Row {
-    double log_scale = 0.0;
-    double log_slope = 0.0;  ///< by the shift, or by the temperature
-    LinearRgb film{0.0};     ///< colour of the whole light
-    LinearRgb film_slope{0.0};
-  };
+  using Row = LightRow;
 
   /// What a reflectance makes of that.
   struct Weights {
@@ -82,6 +76,12 @@ class LightRows {
 
   /// D65, a blackbody, or the D65 in an illuminant, at `shift` > 0 times each wavelength; empty for others.
   [[nodiscard]] std::optional<Place> at(const Spectrum& light, double shift) const;
+
+  /// Of the points (up to 64, one bit each) those at whose shifts the place of a light is such that
+  /// ReflectedLight has it; its film() there, as three arrays, and in a fourth the luminances. Arrays have
+  /// room for whole registers of eight.
+  static std::uint64_t films(const Spectrum& light, const double* shift, std::uint64_t points,
+                             double* const (&film)[4], const SpectralKernels& kernels);
 
   [[nodiscard]] Weighting weighting(const Place& place) const;
 
