@@ -248,7 +248,7 @@ class Walk {
     double reach_room_;
   };
 
-  /// Which rays of a register may meet a surface's bounding sphere: with room for all rounding.
+  /// Which rays of a register may meet a surface's bounding sphere and its box: with room for all rounding.
   class Sight {
    public:
     BACKLIGHT_LANES Sight(const LaneSurface& surface, bool is_lone, const RaySheet& rays, double lambda_max)
@@ -256,22 +256,27 @@ class Walk {
           lambda_max_(lambda_max),
           one_(rays.one_origin),
           all_(is_lone || !(surface.radius < infinity)) {
-      if (!one_ || all_) return;
+      if (!one_) return;
       double square = 0.0;
       for (int k = 0; k < 3; ++k) {
         to_[k] = surface.centre[k] - rays.origin[k][0];
         square += to_[k] * to_[k];
       }
+      if (all_) return;
       const double left = square - surface.radius * surface.radius * (1.0 + 1e-11);
       all_ = !(left > 0.0);
       level_ = __builtin_sqrt(all_ ? 0.0 : left) - 1e-11 * __builtin_sqrt(square);
     }
 
     [[nodiscard]] BACKLIGHT_LANES unsigned lanes(const RaySheet& rays, int i) const {
-      if (all_) return all_lanes;
+      if (all_) return surface_.boxed ? lanes_to_box(rays, i) : all_lanes;
       const V3 d = load3<V>(rays.direction, i);
       const V size = V::load(rays.length + i);
-      if (one_) return bits(dot(d, V3(to_)) >= V(level_) * size);
+      if (one_) {
+        const unsigned met = bits(dot(d, V3(to_)) >= V(level_) * size);
+        return met == 0 || !surface_.boxed ? met : met & lanes_to_box(rays, i);
+      }
+      if (surface_.boxed) return lanes_to_box(rays, i);
       // The closest approach to the centre, without a division.
       const V3 o = load3<V>(rays.origin, i) - V3(surface_.centre);
       const V square = dot(o, o), along = dot(o, d), square_length = dot(d, d);
@@ -292,6 +297,31 @@ class Walk {
     }
 
    private:
+    // Lines and boxes are apart if they are so along an edge of the box, or across it and the line.
+    [[nodiscard]] BACKLIGHT_LANES unsigned lanes_to_box(const RaySheet& rays, int i) const {
+      const V3 o = one_ ? -V3(to_) : load3<V>(rays.origin, i) - V3(surface_.centre);
+      V3 p = o, d = load3<V>(rays.direction, i);
+      if (!surface_.aligned) {
+        p = surface_.local_from_rest.times(p);
+        d = surface_.local_from_rest.times(d);
+      }
+      const V3 size{magnitude(d.x), magnitude(d.y), magnitude(d.z)};
+      const V3 half = V(1.0 + 1e-11) * V3(surface_.half);
+      const V room = V(1e-14 * surface_.stretch), length = V::load(rays.length + i);
+      const V reach = largest_coordinate(o) + V(surface_.radius);
+      const V noise = room * V(surface_.stretch) * reach * length;
+      Mask met = (magnitude(p.y * d.z - p.z * d.y) <= half.y * size.z + half.z * size.y + noise) &
+                 (magnitude(p.z * d.x - p.x * d.z) <= half.z * size.x + half.x * size.z + noise) &
+                 (magnitude(p.x * d.y - p.y * d.x) <= half.x * size.y + half.y * size.x + noise);
+      if (lambda_max_ < infinity) {
+        const V middle(0.5 * lambda_max_), more = room * (reach + V(lambda_max_) * length);
+        met = met & (magnitude(p.x + middle * d.x) <= half.x + middle * size.x + more) &
+              (magnitude(p.y + middle * d.y) <= half.y + middle * size.y + more) &
+              (magnitude(p.z + middle * d.z) <= half.z + middle * size.z + more);
+      }
+      return bits(met);
+    }
+
     const LaneSurface& surface_;
     double lambda_max_;
     bool one_, all_;
