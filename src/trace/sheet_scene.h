@@ -18,7 +18,8 @@ class TableStore {
   void resize(std::size_t count) {
     const std::size_t column = (count + 8) / 4 * 4;  // with room for a register of any width behind the last
     const auto columns = table_.columns();
-    numbers_ = std::make_unique_for_overwrite<double[]>(columns.size() * column);
+    numbers_ = column <= small ? std::make_unique<double[]>(columns.size() * column)
+                               : std::make_unique_for_overwrite<double[]>(columns.size() * column);
     for (std::size_t i = 0; i < columns.size(); ++i) *columns[i] = numbers_.get() + i * column;
     table_.count = static_cast<int>(count);
   }
@@ -27,7 +28,10 @@ class TableStore {
 
  private:
   Table table_;
-  // Not touched before it is used: of a large scene's lists most threads use a small part.
+  // A large one is not touched before it is used: most threads use a small part. In a small one, what is left
+  // in memory behind the last would be a large part of what a kernel takes: of denormal numbers, too, which
+  // are slow.
+  static constexpr std::size_t small = 512;
   std::unique_ptr<double[]> numbers_;
 };
 using ConeStore = TableStore<ConeTable>;
