@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 
-#include "backlight/base/lanes.h"
+#include "backlight/base/lane_arctangent.h"
 #include "backlight/surface/ray_sheet.h"
 #include "backlight/trace/sheet_tracer.h"
 
@@ -203,6 +203,17 @@ struct LightSpan {
   double reach = 0.0;
 };
 
+/// Texture coordinates of the sky in a direction in its frame: equirectangular, as an equirectangular camera
+/// looking along +z with y up would have made it: u = 1/2 at +z, growing towards -x (its right), v = 0 at +y.
+template <class V>
+struct LaneSkyPlace {
+  V u, v;
+
+  explicit BACKLIGHT_LANES LaneSkyPlace(LaneVec3<V> d)
+      : u(V(0.5) + angle_of(-d.x, d.z) * V(0.15915494309189535)),
+        v(angle_of(sqrt(d.x * d.x + d.z * d.z), d.y) * V(0.31830988618379067)) {}
+};
+
 /// Whether the sum of the numbers of a square, rounded down in both directions, is odd (or not a number).
 template <class V>
 BACKLIGHT_LANES typename V::Mask is_odd_square(V size, V u, V v) {
@@ -255,6 +266,8 @@ struct SheetKernels {
   void (*in_frame)(const LaneFrame& frame, PointSheet& points);
   /// What follows from points however found: `to_camera`, proper time, D, and the normal's side.
   void (*face)(PointSheet& points);
+  /// The same of rays to the sky: D and texture coordinates.
+  void (*face_sky)(PointSheet& points);
   /// What of a lamp's light reaches the points, but for shadows. Bits: the lit ones.
   std::uint64_t (*arrive)(const LaneLamp& lamp, PointSheet& points);
   /// The bundle of the lit rays from `first` to `last` (whole registers); false when there are none.

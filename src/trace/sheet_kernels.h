@@ -397,6 +397,15 @@ struct KernelsOf {
     }
   }
 
+  static void face_sky(PointSheet& p) {
+    for (int i = 0; i < p.padded; i += N) {
+      (p.light_delay ? V(1.0) / V::load(p.rays.length + i) : V(1.0)).store(p.doppler + i);
+      const LaneSkyPlace<V> place(load3<V>(p.rays.direction, i));
+      place.u.store(p.points.u + i);
+      place.v.store(p.points.v + i);
+    }
+  }
+
   // Equations (10) and (12).
   static std::uint64_t arrive(const LaneLamp& lamp, PointSheet& p) {
     std::uint64_t all_lit = 0;
@@ -564,6 +573,7 @@ struct KernelsOf {
             .enter = enter,
             .in_frame = in_frame,
             .face = face,
+            .face_sky = face_sky,
             .arrive = arrive,
             .light_bundle = light_bundle,
             .sift = sift,

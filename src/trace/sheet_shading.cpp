@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "backlight/trace/sky.h"
 #include "shading_steps.h"
 
 namespace backlight {
@@ -196,6 +197,32 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
   reflection.shininess = material.shininess;
   sheets_.kernels().reflect(reflection, p);
   return true;
+}
+
+void SheetShader::shade_sky(const SheetRays& rays, std::uint64_t lanes, const Effects& effects) {
+  PointSheet& p = work_.points;
+  const Sky& sky = tracer_.scene().sky;
+  const auto frame = static_cast<std::size_t>(sky.frame);
+  const bool shifted = tracer_.is_spectral() && effects.doppler;
+  for (int k = 0; k < 3; ++k) p.direction[k] = rays.direction[k];
+  p.padded = rays.padded;
+  p.light_delay = rays.light_delay;
+  sheets_.kernels().in_frame(sheets_.eye(eye_).frames[frame], p);
+  sheets_.kernels().face_sky(p);
+  LinearRgb colour = sky.radiance.rgb;
+  double seen_at = 0.0;  // D of a colour that is that of all the sky
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = __builtin_ctzll(lanes);
+    if (sky.texture) colour = sky_texel(sky, p.points.u[lane], p.points.v[lane]);
+    if (shifted && (sky.texture || p.doppler[lane] != seen_at)) {
+      seen_at = p.doppler[lane];
+      shift_by({seen_at}, scratch_);
+      colour = sky_shifted(tracer_.shading(), {colour}, scratch_);
+    }
+    put(colour, p.rgb, lane);
+  }
+  const double gamma = tracer_.hub().frames[frame].from_camera.gamma();
+  sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, shifted, p);
 }
 
 void SheetShader::shade(const Effects& effects) {

@@ -85,6 +85,9 @@ class SheetShader {
   /// The colours of work.points, of one material, into points.rgb.
   void shade(const Effects& effects);
 
+  /// The sky's colours along the rays whose bits are set, into points.rgb.
+  void shade_sky(const SheetRays& rays, std::uint64_t lanes, const Effects& effects);
+
   /// What the ray of a lane of work.points meets.
   [[nodiscard]] FirstHit hit(int lane) const;
 

@@ -126,6 +126,17 @@ class SheetPainter {
       }
       return;
     }
+    const auto frame = static_cast<std::size_t>(sky.frame);
+    if (!far && !records_ && !tracer_.hub().frames[frame].from_camera.is_robust()) {
+      shader_.shade_sky(sheet.rays, mask, *sheet.effects);
+      const auto& rgb = work_.points.rgb;
+      for (; mask != 0; mask &= mask - 1) {
+        const int lane = __builtin_ctzll(mask);
+        light_.set_colour(static_cast<std::size_t>(sheet.place[lane]),
+                          {rgb[0][lane], rgb[1][lane], rgb[2][lane]});
+      }
+      return;
+    }
     for (; mask != 0; mask &= mask - 1) {
       const int lane = __builtin_ctzll(mask);
       one_ray(sheet, lane, far ? work_.far_hits[static_cast<std::size_t>(sheet.place[lane])] : FirstHit{});

@@ -86,7 +86,7 @@ LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Eff
   shift_by(doppler, scratch);
   const LinearRgb radiance =
       hit.found() ? shade_shifted(context, seen_point(hub_, scratch.rays, hit), effects, scratch)
-                  : sky_shifted(context, events, scratch);
+                  : sky_shifted(context, sky_radiance(scene_->sky, events), scratch);
   return radiance_factor(doppler, gamma, factors) * wavelength_density_factor(doppler) * radiance;
 }
 
