@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "backlight/base/lane_arctangent.h"
+#include "backlight/camera/sample_digits.h"
 #include "backlight/surface/ray_sheet.h"
 #include "backlight/trace/sheet_tracer.h"
 
@@ -165,12 +166,6 @@ struct PointSheet {
   alignas(64) double lamp[4][sheet_size];  ///< film colour of all of its light, and that's luminance
   alignas(64) double rgb[3][sheet_size];
 
-  /// The lit ones, one bit each.
-  [[nodiscard]] std::uint64_t lit_bits() const {
-    std::uint64_t all = 0;
-    for (int i = 0; i < sheet_size; ++i) all |= (lit[i] > 0.0 ? std::uint64_t{1} : 0) << i;
-    return all & first_bits(count);
-  }
   [[nodiscard]] LightRays light_rays() {
     return {{way[0], way[1], way[2]}, way_length, relative_emission_time, lit};
   }
@@ -246,6 +241,8 @@ struct LaneReflection {
 /// The kernels of one instruction set.
 struct SheetKernels {
   const char* name;
+  /// sample_point() of 64 pixels, of several samples each.
+  void (*sample)(const SampleRow& row, const int* column, const int* line, double* x, double* y);
   /// The looking directions of a perspective image at the points (x, y): camera/projection.h.
   void (*look)(const LaneLens& lens, const double* x, const double* y, SheetRays& rays);
   /// The smallest bundle about the mean of the rays.

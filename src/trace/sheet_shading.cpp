@@ -180,7 +180,7 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
   std::uint64_t lit = sheets_.kernels().arrive(lane_lamp(index, entry_->frame), p);
   if (light.flickers || light.strength == 0.0) {
     fill_strength(light, index);
-    lit = p.lit_bits();
+    lit = lit_points();
   }
   if (lit == 0) return false;
   if (light.shadows) {

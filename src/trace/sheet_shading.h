@@ -118,6 +118,10 @@ class SheetShader {
   void fill_shifted(std::size_t light, int material, LaneReflection& reflection);
   [[nodiscard]] std::uint64_t look_up(std::size_t light, int material, std::uint64_t points, bool has_lobe);
   LampColours colours_at(int lane, std::size_t light, int material);
+  /// One bit each.
+  [[nodiscard]] std::uint64_t lit_points() const {
+    return sheets_.kernels().same(work_.points.lit, work_.points.count, 1.0);
+  }
   [[nodiscard]] std::size_t frame() const { return static_cast<std::size_t>(entry_->frame); }
 
   const Tracer& tracer_;

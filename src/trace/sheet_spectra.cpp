@@ -102,7 +102,7 @@ void SheetShader::fill_shifted(std::size_t light, int index, LaneReflection& ref
   PointSheet& p = work_.points;
   const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
   const bool has_lobe = material.specular > 0.0;
-  const std::uint64_t lit = p.lit_bits(), odd = lit & p.odd_squares;
+  const std::uint64_t lit = lit_points(), odd = lit & p.odd_squares;
   const auto same = [&](const double* numbers) {
     return sheets_.kernels().same(numbers, p.count, numbers[0]) == first_bits(p.count);
   };

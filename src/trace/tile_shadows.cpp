@@ -115,7 +115,7 @@ void SheetShader::try_entry(std::size_t light, int index, std::uint64_t candidat
   const RaySheet* rays = &p.shadow;
   std::uint64_t open = 0;
   if (&entry == entry_) {
-    open = candidates & p.lit_bits();
+    open = candidates & lit_points();
   } else {
     open = sheets_.kernels().cast(sheets_.eye(eye_).frames[at], sheets_.lamp(light).to_frame[at], candidates,
                                   p, work_.rays);
