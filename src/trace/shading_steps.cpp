@@ -5,7 +5,7 @@
 
 #include "backlight/colour/film_integral.h"
 #include "backlight/colour/upsampling.h"
-#include "sheet.h"
+#include "backlight/film/lane_texture.h"
 
 namespace backlight {
 

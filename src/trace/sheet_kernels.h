@@ -52,51 +52,14 @@ BACKLIGHT_LANES V brightness_factor(const LaneBrightness& on, V d, double gamma,
   return flux * (on.solid_angle ? d * d : V(1.0));
 }
 
-/// Words of 64 bits for each lane, and of 32.
-template <int N>
-struct Digits;
-template <>
-struct Digits<2> {
-  typedef std::uint64_t Word __attribute__((vector_size(16)));
-  typedef std::uint32_t Half __attribute__((vector_size(8)));
-};
-template <>
-struct Digits<4> {
-  typedef std::uint64_t Word __attribute__((vector_size(32)));
-  typedef std::uint32_t Half __attribute__((vector_size(16)));
-};
-template <>
-struct Digits<8> {
-  typedef std::uint64_t Word __attribute__((vector_size(64)));
-  typedef std::uint32_t Half __attribute__((vector_size(32)));
-};
-
 template <int N>
 struct KernelsOf {
   using V = Lanes<N>;
   using V3 = LaneVec3<V>;
   using Mask = LaneMask<N>;
 
-  // Whole numbers below 2^52 as doubles, without a conversion.
-  static BACKLIGHT_LANES V number(typename Mask::Vec whole) {
-    return V((typename V::Vec)(whole + 0x4330000000000000LL)) - V(0x1p52);
-  }
-
   static void sample(const SampleRow& row, const int* column, const int* line, double* x, double* y) {
-    using Signed = typename Mask::Vec;
-    using Word = typename Digits<N>::Word;
-    using Half = typename Digits<N>::Half;
-    for (int i = 0; i < sheet_size; i += N) {
-      Half across, down;
-      __builtin_memcpy(&across, column + i, sizeof across);
-      __builtin_memcpy(&down, line + i, sizeof down);
-      const Word a = __builtin_convertvector(across, Word), d = __builtin_convertvector(down, Word);
-      const Word hash = mixed(row.hash + hash_step + (d << 32U) + a);
-      const Half first = reversed(permuted(Half{} + row.first, __builtin_convertvector(hash, Half)));
-      const Half second = reversed(permuted(Half{} + row.second, __builtin_convertvector(hash >> 32U, Half)));
-      (number((Signed)a) + number((Signed) __builtin_convertvector(first, Word)) * V(0x1p-32)).store(x + i);
-      (number((Signed)d) + number((Signed) __builtin_convertvector(second, Word)) * V(0x1p-32)).store(y + i);
-    }
+    for (int i = 0; i < sheet_size; i += N) sample_points<N>(row, column + i, line + i, x + i, y + i);
   }
 
   static void look(const LaneLens& lens, const double* across, const double* down, SheetRays& rays) {

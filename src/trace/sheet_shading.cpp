@@ -31,7 +31,7 @@ LaneBrightness lane_brightness(const BrightnessSwitches& on) {
 }
 
 SheetScratch::SheetScratch(const SheetScene& scene, std::size_t lights, InstructionSet set)
-    : tile_lamps(lights), packets(lights), group_of(scene.group_count(), -1) {
+    : tile_lamps(lights), packets(lights), lane_lamps(lights), group_of(scene.group_count(), -1) {
   sheet_memory.resize(65);  // of a whole tile: its pages are touched here, not between its rays
   rays.instructions = points.rays.instructions = points.shadow.instructions = set;
   tile_cones.resize(scene.entries().size());
@@ -53,9 +53,11 @@ CameraRay SheetShader::camera_ray_of(int lane) const {
   return ray;
 }
 
-LaneLamp SheetShader::lane_lamp(std::size_t light, int frame) const {
+const LaneLamp& SheetShader::lane_lamp(std::size_t light, int frame) const {
   const Light& lamp = tracer_.scene().lights[light];
-  LaneLamp lanes;
+  LaneLamp& lanes = work_.lane_lamps[light];
+  if (lanes.surface_frame == frame) return lanes;
+  lanes.surface_frame = frame;
   lanes.frame = sheets_.eye(eye_).frames[static_cast<std::size_t>(lamp.frame)];
   lanes.to_surface = sheets_.lamp(light).to_frame[static_cast<std::size_t>(frame)];
   lanes.time_offset =
@@ -73,6 +75,7 @@ void SheetShader::begin_tile(const Effects& effects) {
   sheet_ = -1;
   effects_ = &effects;
   for (std::size_t light = 0; light < work_.packets.size(); ++light) {
+    work_.lane_lamps[light].surface_frame = -1;
     work_.packets[light].clear();
     work_.tile_lamps[light].table().count = SheetScratch::not_listed;
   }
@@ -99,6 +102,7 @@ bool SheetShader::resolve() {
   PointSheet& p = work_.points;
   const Scene& scene = tracer_.scene();
   const SurfaceSet& surfaces = sheets_.surfaces(*entry_);
+  bool is_one = true;  // material, or else members of solids may have several
   sheets_.kernels().in_frame(sheets_.eye(eye_).frames[frame()], p);
   for (int r = 0; r < p.run_count; ++r) {
     const auto [number, first, end] = p.runs[r];
@@ -112,12 +116,14 @@ bool SheetShader::resolve() {
     std::fill_n(p.own + first, count, surfaces.is_convex(surface) ? number : -1.0);
     std::fill_n(p.own_inside + first, count, surfaces.is_flat(surface) ? number : -1.0);
     std::fill_n(p.material + first, count, object.material);
+    is_one = is_one && members.empty();
     for (int i = first; i < end && !members.empty(); ++i) {
       p.material[i] = members[static_cast<std::size_t>(p.points.member[i])];
     }
   }
   sheets_.kernels().face(p);
-  return std::all_of(p.material, p.material + p.count, [&](int its) { return its == p.material[0]; });
+  return is_one ||
+         std::all_of(p.material, p.material + p.count, [&](int its) { return its == p.material[0]; });
 }
 
 void SheetShader::fill_strength(const Light& light, std::size_t index) {

@@ -31,6 +31,7 @@ struct SheetScratch {
   std::vector<LampStore>
       tile_lamps;  ///< by light: what may shade any of the tile's hits; count: or not_listed
   std::vector<ShadowPackets> packets;   ///< by light
+  std::vector<LaneLamp> lane_lamps;     ///< by light, as last seen from a frame of the tile
   std::vector<LampStore> packet_lamps;  ///< what may shade any of a packet of shadow rays, and of its parts
   LampStore chunk_lamps;                ///< what may shade any of the points of a sheet...
   LampStore near_lamps;                 ///< ...and a few of them
@@ -95,7 +96,7 @@ class SheetShader {
   [[nodiscard]] CameraRay camera_ray_of(int lane) const;
 
  private:
-  [[nodiscard]] LaneLamp lane_lamp(std::size_t light, int frame) const;
+  [[nodiscard]] const LaneLamp& lane_lamp(std::size_t light, int frame) const;
   void fill_strength(const Light& light, std::size_t index);
   void fill_diffuse(std::size_t light, int material, LaneReflection& reflection);
   // Shadows (tile_shadows.cpp):

@@ -247,8 +247,10 @@ class SheetPainter {
 
   void put_colours() {
     const PointSheet& p = work_.points;
-    for (int i = 0; i < p.count && colours_; ++i) {
-      if (p.hits->is_unresolved(i)) ++scratch_.counts.unresolved;
+    const auto is_unresolved = [](double part) { return part < 0.0; };
+    if (colours_) {
+      scratch_.counts.unresolved +=
+          static_cast<std::uint64_t>(std::count_if(p.hits->part, p.hits->part + p.count, is_unresolved));
     }
     if (p.whole >= 0 && !records_) {
       const int first = work_.sheets[static_cast<std::size_t>(p.whole)].place[0];  // of 64 neighbours

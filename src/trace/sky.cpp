@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "backlight/colour/upsampling.h"
+#include "backlight/film/lane_texture.h"
 #include "shading_steps.h"
-#include "sheet.h"
 
 namespace backlight {
 namespace {

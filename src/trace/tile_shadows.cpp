@@ -33,7 +33,7 @@ const LampTable& SheetShader::occluders_of_tile(std::size_t light) {
 }
 
 void SheetShader::list_for_tile(std::size_t light, LampTable& list) const {
-  const LaneLamp lamp = lane_lamp(light, tracer_.scene().lights[light].frame);
+  const LaneLamp& lamp = lane_lamp(light, tracer_.scene().lights[light].frame);
   LightSpan span;
   for (const auto& sheet : work_.sheets) {
     if (sheet.effects == effects_) sheets_.kernels().gather(lamp, sheet.rays, sheet.hits, nullptr, span);

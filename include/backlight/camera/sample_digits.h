@@ -46,4 +46,48 @@ BACKLIGHT_LANES Word reversed(Word bits) {
   return (bits >> 16U) | (bits << 16U);
 }
 
+/// Words of 64 bits for each lane, and of 32.
+template <int N>
+struct Digits;
+template <>
+struct Digits<2> {
+  typedef std::uint64_t Word __attribute__((vector_size(16)));
+  typedef std::uint32_t Half __attribute__((vector_size(8)));
+};
+template <>
+struct Digits<4> {
+  typedef std::uint64_t Word __attribute__((vector_size(32)));
+  typedef std::uint32_t Half __attribute__((vector_size(16)));
+};
+template <>
+struct Digits<8> {
+  typedef std::uint64_t Word __attribute__((vector_size(64)));
+  typedef std::uint32_t Half __attribute__((vector_size(32)));
+};
+
+/// Whole numbers as doubles, without a conversion.
+template <int N>
+BACKLIGHT_LANES Lanes<N> number(typename Digits<N>::Half whole) {
+  using Word = typename Digits<N>::Word;
+  const Word bits = __builtin_convertvector(whole, Word) + std::uint64_t{0x4330000000000000};
+  return Lanes<N>((typename Lanes<N>::Vec)bits) - Lanes<N>(0x1p52);
+}
+
+/// sample_point() of N pixels, of several samples each.
+template <int N>
+BACKLIGHT_LANES void sample_points(const SampleRow& row, const int* column, const int* line, double* x,
+                                   double* y) {
+  using Word = typename Digits<N>::Word;
+  using Half = typename Digits<N>::Half;
+  Half across, down;
+  __builtin_memcpy(&across, column, sizeof across);
+  __builtin_memcpy(&down, line, sizeof down);
+  const Word pixel = (__builtin_convertvector(down, Word) << 32U) + __builtin_convertvector(across, Word);
+  const Word hash = mixed(row.hash + hash_step + pixel);
+  const Half first = reversed(permuted(Half{} + row.first, __builtin_convertvector(hash, Half)));
+  const Half second = reversed(permuted(Half{} + row.second, __builtin_convertvector(hash >> 32U, Half)));
+  (number<N>(across) + number<N>(first) * Lanes<N>(0x1p-32)).store(x);
+  (number<N>(down) + number<N>(second) * Lanes<N>(0x1p-32)).store(y);
+}
+
 }  // namespace backlight
