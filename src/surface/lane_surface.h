@@ -24,8 +24,7 @@ struct LaneSurface {
   double largest_scale = 1.0;
   double radius = 0.0;   ///< of the bounding sphere about the centre, rest frame; may be infinite
   double values[10]{};   ///< Shape::values
-  bool boxed = false;    ///< it may fill much less of the bounding sphere than of its box:
-  double half[3]{};      ///< of the box about the local origin, local
+  double half[3]{};      ///< of the box about the local origin, local; of what has bounds
   double stretch = 0.0;  ///< no less than what local_from_rest makes of lengths
 };
 

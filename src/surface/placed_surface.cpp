@@ -38,12 +38,12 @@ PlacedSurface place(const Shape& shape, const Placement& placement) {
   lanes.largest_scale = std::max({scale.x, scale.y, scale.z});
   lanes.radius = slack * methods(shape).bounding_radius(shape, scale);
   std::copy(shape.values.begin(), shape.values.end(), lanes.values);
-  lanes.boxed = shape.kind > ShapeKind::sphere && shape.kind <= ShapeKind::disk;
   for (int i = 0; i < 3; ++i) {
     const Vec3 row{lanes.local_from_rest.column[0][i], lanes.local_from_rest.column[1][i],
                    lanes.local_from_rest.column[2][i]};
     lanes.stretch = std::max(lanes.stretch, std::abs(row.x) + std::abs(row.y) + std::abs(row.z));
-    if (lanes.boxed) lanes.half[i] = methods(shape).half_extent(shape, extent_along(unit_matrix, i));
+    if (std::isfinite(lanes.radius))
+      lanes.half[i] = methods(shape).half_extent(shape, extent_along(unit_matrix, i));
   }
   return surface;
 }

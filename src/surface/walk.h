@@ -249,6 +249,7 @@ class Walk {
   };
 
   /// Which rays of a register may meet a surface's bounding sphere and its box: with room for all rounding.
+  template <bool boxed>
   class Sight {
    public:
     BACKLIGHT_LANES Sight(const LaneSurface& surface, bool is_lone, const RaySheet& rays, double lambda_max)
@@ -266,7 +267,7 @@ class Walk {
         to_[k] = surface.centre[k] - rays.origin[k][0];
         square += to_[k] * to_[k];
       }
-      if (surface.boxed) set_start(-V3(to_));
+      if (boxed) set_start(-V3(to_));
       if (all_) return;
       const double left = square - surface.radius * surface.radius * (1.0 + 1e-11);
       all_ = !(left > 0.0);
@@ -274,14 +275,14 @@ class Walk {
     }
 
     [[nodiscard]] BACKLIGHT_LANES unsigned lanes(const RaySheet& rays, int i) {
-      if (all_) return surface_.boxed ? lanes_to_box(rays, i) : all_lanes;
+      if (all_) return boxed ? lanes_to_box(rays, i) : all_lanes;
       const V3 d = load3<V>(rays.direction, i);
       const V size = V::load(rays.length + i);
       if (one_) {
         const unsigned met = bits(dot(d, V3(to_)) >= V(level_) * size);
-        return met == 0 || !surface_.boxed ? met : met & lanes_to_box(rays, i);
+        return met == 0 || !boxed ? met : met & lanes_to_box(rays, i);
       }
-      if (surface_.boxed) return lanes_to_box(rays, i);
+      if (boxed) return lanes_to_box(rays, i);
       // The closest approach to the centre, without a division.
       const V3 o = load3<V>(rays.origin, i) - V3(surface_.centre);
       const V square = dot(o, o), along = dot(o, d), square_length = dot(d, d);
@@ -415,7 +416,7 @@ class Walk {
       nearer = nearest_by<decltype(form)>(surface, who, s.is_lone, rays, active, hits);
     };
     if (with_form(surface.kind, use)) return nearer;
-    const std::uint64_t near = Sight(surface, s.is_lone, rays, infinity).rays(rays, active);
+    const std::uint64_t near = Sight<false>(surface, s.is_lone, rays, infinity).rays(rays, active);
     return near != 0 && s.nearest_of(s.set, index, near, rays, who, hits);
   }
 
@@ -444,7 +445,7 @@ class Walk {
   template <class Form>
   static BACKLIGHT_LANES bool nearest_by(const LaneSurface& surface, double who, bool is_lone,
                                          const RaySheet& rays, std::uint64_t active, SheetHits& hits) {
-    Sight sight(surface, is_lone, rays, infinity);
+    Sight<Form::is_boxed> sight(surface, is_lone, rays, infinity);
     bool any = false;
     for (int i = 0; i < rays.padded; i += N) {
       const unsigned open = lanes_of(active, i);
@@ -473,7 +474,7 @@ class Walk {
       blocked = blocked_by_form<decltype(form)>(surface, who, s.is_lone, rays, active, question);
     };
     if (with_form(surface.kind, use)) return blocked;
-    const std::uint64_t near = Sight(surface, s.is_lone, rays, question.lambda_max).rays(rays, active);
+    const std::uint64_t near = Sight<false>(surface, s.is_lone, rays, question.lambda_max).rays(rays, active);
     return near != 0 ? s.blocked_by(s.set, index, near, rays, question.lambda_max) : 0;
   }
 
@@ -481,7 +482,7 @@ class Walk {
   static BACKLIGHT_LANES std::uint64_t blocked_by_form(const LaneSurface& surface, double who, bool is_lone,
                                                        const RaySheet& rays, std::uint64_t active,
                                                        const ShadowQuestion& question) {
-    Sight sight(surface, is_lone, rays, question.lambda_max);
+    Sight<Form::is_boxed> sight(surface, is_lone, rays, question.lambda_max);
     std::uint64_t all = 0;
     for (int i = 0; i < rays.padded; i += N) {
       unsigned open = lanes_of(active, i);

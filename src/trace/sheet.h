@@ -137,6 +137,7 @@ struct PointSheet {
   SheetPoints points;  ///< the normal on the side that is seen, after face()
   int material[sheet_size];
   // face():
+  std::uint64_t unresolved;  ///< hits, one bit each
   alignas(64) double to_camera[3][sheet_size];
   alignas(64) double proper_time[sheet_size];
   alignas(64) double doppler[sheet_size];  ///< D on the way to the camera

@@ -384,7 +384,9 @@ struct KernelsOf {
   static void face(PointSheet& p) {
     p.shadow.padded = p.padded;
     p.shadow.one_origin = false;
+    p.unresolved = 0;
     for (int i = 0; i < p.padded; i += N) {
+      p.unresolved |= static_cast<std::uint64_t>(bits(V::load(p.hits->part + i) < V(0.0))) << i;
       const V inverse_length = V(1.0) / V::load(p.rays.length + i);
       const V3 to_camera = inverse_length * -load3<V>(p.rays.direction, i);
       const V3 normal = load3<V>(p.points.normal, i);

@@ -247,11 +247,8 @@ class SheetPainter {
 
   void put_colours() {
     const PointSheet& p = work_.points;
-    const auto is_unresolved = [](double part) { return part < 0.0; };
-    if (colours_) {
-      scratch_.counts.unresolved +=
-          static_cast<std::uint64_t>(std::count_if(p.hits->part, p.hits->part + p.count, is_unresolved));
-    }
+    const std::uint64_t unresolved = colours_ ? p.unresolved & first_bits(p.count) : 0;
+    scratch_.counts.unresolved += static_cast<std::uint64_t>(__builtin_popcountll(unresolved));
     if (p.whole >= 0 && !records_) {
       const int first = work_.sheets[static_cast<std::size_t>(p.whole)].place[0];  // of 64 neighbours
       for (std::size_t k = 0; k < 3; ++k) std::copy_n(p.rgb[k], sheet_size, light_.rgb[k].data() + first);
