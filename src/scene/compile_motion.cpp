@@ -162,6 +162,25 @@ bool lives_by_own_time(const Description& description, const Node& node, bool of
          });
 }
 
+/// The middle of where formulas of t ever are, which is taken off them: of what goes on forever nothing.
+Vec3 take_middle(std::array<Expression, 3>& formulas) {
+  Vec3 middle{0.0};
+  for (int i = 0; i < 3; ++i) {
+    Expression& formula = formulas[static_cast<std::size_t>(i)];
+    const Interval range = over_times(formula, -always, always).value;
+    constexpr double far_away = 1e9;
+    if (!(range.upper - range.lower < far_away)) continue;
+    middle[i] = 0.5 * range.lower + 0.5 * range.upper;
+    Composer composer(ImplicitFormula::variables);
+    const std::array<Composer::Node, 4> at{composer.variable(0), composer.variable(1), composer.variable(2),
+                                           composer.variable(3)};
+    const Composer::Node off =
+        composer.apply(Operation::subtract, composer.insert(formula, at), composer.constant(middle[i]));
+    formula = composer.expression(off, formula.text());
+  }
+  return middle;
+}
+
 class MotionCompiler {
  public:
   MotionCompiler(Compilation& c, const TableView& object, int frame)
@@ -174,12 +193,7 @@ class MotionCompiler {
     take_rocket(object_, c_.scene.c, whole);
     if (c_.values.diagnostics.error_count() > errors) return std::nullopt;
     MovingShape moving;
-    if (const auto at = constants_of(whole.position)) {
-      moving.placement = Placement(*at + offset, Vec3{0.0}, Vec3{1.0});
-      whole.position = constant_formulas(Vec3{0.0});
-    } else {
-      moving.placement = Placement(offset, Vec3{0.0}, Vec3{1.0});
-    }
+    moving.placement = Placement(offset + take_middle(whole.position), Vec3{0.0}, Vec3{1.0});
     offset_ = moving.placement.position();
     SolidTree tree;
     if (solid != nullptr) {
@@ -262,7 +276,7 @@ class MotionCompiler {
     }
     // Errors of its points are told by the size of its bounds, which those of a thing that leaves are not.
     constexpr double many_radii = 1e6;
-    const bool bounded = std::isinf(ball.begins) && glm::length(high - low) < many_radii * ball.radius;
+    const bool bounded = glm::length(high - low) < many_radii * ball.radius;
     if (!bounded) {
       low = Vec3{-std::numeric_limits<double>::infinity()};
       high = -low;
@@ -303,7 +317,8 @@ class MotionCompiler {
   /// For which it is proved.
   [[nodiscard]] Interval times_of(const SpeedProof& proof) const {
     if (std::isinf(proof.begins)) return {-always, always, Continuity::continuous};
-    return {proof.begins, prover_.last(), Continuity::continuous};
+    // Later than the last are lines of one moment.
+    return {proof.begins, 2.0 * prover_.last() - proof.begins, Continuity::continuous};
   }
 
   std::optional<Expression> body_formula(const TableView& table, const Shape& shape, bool closed) {
