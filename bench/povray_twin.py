@@ -33,7 +33,7 @@ class Formulas:
 
     def __init__(self, parameters):
         self.parameters = parameters
-        self.known = {"pi": math.pi, "e": math.e, "t": 0.0, "frame": 1.0}
+        self.known = {"pi": math.pi, "e": math.e, "t": 0.0, "image_time": 0.0, "frame": 1.0}
         self.under_way = set()
 
     def number(self, value):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -125,17 +126,33 @@ std::optional<LightRows::Place> LightRows::at(const Spectrum& light, double shif
   return body(planck::d65_kelvin * shift, 0.0, form.scale * joint / fifth_power);
 }
 
+namespace {
+
+// Of its scale 1.
+LightRows::Place place_of_body(double kelvin) {
+  if (temperatures.has(kelvin))
+    return place_in(temperatures, LightRows::Family::bodies, kelvin, body_row_table);
+  static thread_local LightRows::Row own;
+  own = body_row(kelvin);
+  return {LightRows::Family::alone, &own, &own, 0.0, 0.0, 1.0, kelvin};
+}
+
+// By which power of e its light has been divided.
+double log_scale_of(const LightRows::Place& place) {
+  return hermite(place.low->log_scale, place.step * place.low->log_slope, place.high->log_scale,
+                 place.step * place.high->log_slope, place.fraction);
+}
+
+}  // namespace
+
+Spectrum LightRows::blackbody(double kelvin) {
+  const Place place = place_of_body(std::max(kelvin, planck::coldest_kelvin));
+  return Spectrum::planckian(kelvin, log_scale_of(place) + std::log(luminance(place.film())));
+}
+
 LightRows::Place LightRows::body(double kelvin, double log_divisor, double scale) const {
-  static thread_local Row own;
-  Place place{Family::alone, &own, &own, 0.0, 0.0, 1.0, kelvin};
-  if (temperatures.has(kelvin)) {
-    place = place_in(temperatures, Family::bodies, kelvin, body_row_table);
-  } else {
-    own = body_row(kelvin);
-  }
-  const double log_scale = hermite(place.low->log_scale, place.step * place.low->log_slope,
-                                   place.high->log_scale, place.step * place.high->log_slope, place.fraction);
-  place.scale = scale * exponential_of(std::min(log_scale - log_divisor, greatest_log));
+  Place place = place_of_body(kelvin);
+  place.scale = scale * exponential_of(std::min(log_scale_of(place) - log_divisor, greatest_log));
   return place;
 }
 

@@ -110,7 +110,7 @@ bool ride(Compilation& c, const TableView& camera) {
   take_rocket(object, c.scene.c, level);
   const Vec3 point = camera.vector("position");
   const MatterMotion::Body body = body_of({level});
-  const MatterMotion motion(body, sphere(1.0), std::nullopt, 1.0 / c.scene.c);
+  const MatterMotion motion(body, sphere(1.0), std::nullopt, {1.0 / c.scene.c, true});
   const double time = time_of_exposure(camera, motion, body, point, base, c.scene.c);
   const Passenger here = at_time(body, point, time / c.scene.c, c.scene.c);
   const double speed = glm::length(here.velocity);
@@ -126,8 +126,8 @@ bool ride(Compilation& c, const TableView& camera) {
   view.celerity = base == InertialFrame{} ? celerity : within(base, {celerity, event}).celerity;
   view.event = to_world(base, event);
   view.proper_time = motion.own_time(here.place, time, Mat3(1.0));
-  // The body's axes as its matter measures them, so without the contraction along its way, carried by the pure
-  // boost from its frame; in the camera's, which are carried from the world's.
+  // The body's axes as its matter measures them, so without the contraction along its way, carried by the
+  // pure boost from its frame; in the camera's, which are carried from the world's.
   const Vec3 u = celerity.rounded();
   const Mat3 measured = Mat3(1.0) + glm::outerProduct(u, u) / (1.0 + std::sqrt(1.0 + glm::dot(u, u)));
   const Mat3 turn = relative_motion(view.celerity, base.celerity).rotation * measured * here.axes;

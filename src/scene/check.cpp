@@ -258,7 +258,7 @@ class Checker {
 }  // namespace
 
 void collect_variables(Description& description, Diagnostics& diagnostics) {
-  description.variables = {"t", "frame"};
+  description.variables = {"t", "frame", "image_time"};
   const Entry* parameters = find(description.root, "params");
   const NodeTable* table = parameters != nullptr ? parameters->node.table() : nullptr;
   if (table == nullptr) return;
@@ -266,7 +266,8 @@ void collect_variables(Description& description, Diagnostics& diagnostics) {
     std::string problem;
     if (!is_identifier(entry.name)) {
       problem = "a parameter's name is made of letters, digits and '_', and begins with none of the digits";
-    } else if (entry.name == "t" || entry.name == "frame" || is_expression_name(entry.name)) {
+    } else if (entry.name == "t" || entry.name == "frame" || entry.name == "image_time" ||
+               is_expression_name(entry.name)) {
       problem = "'" + entry.name + "' already has a meaning in expressions: choose another name";
     }
     if (problem.empty()) {

@@ -9,7 +9,7 @@
 
 namespace backlight {
 
-/// Fills Description::variables with "t", "frame" and the parameters that have usable names.
+/// Fills Description::variables with "t", "frame", "image_time" and the parameters that have usable names.
 void collect_variables(Description& description, Diagnostics& diagnostics);
 
 /// Checks the description's tree. What is wrong becomes Invalid. Returns, for each variable, whether any

@@ -30,7 +30,8 @@ void check_parameters(ImageValues& values) {
   const std::vector<const Entry*> parameters = values.description.parameters();
   for (const std::size_t i : values.description.parameter_order) {
     const Entry* entry = parameters[i];
-    if (std::isfinite(values.variables[i])) continue;
+    // What depends on t is no number by itself: it is judged where it stands.
+    if (std::isfinite(values.variables[i]) || values.description.follows_t[i]) continue;
     const auto* expression = std::get_if<Expression>(&entry->node.value);
     const bool by_another = expression != nullptr && values.uses_wrong_variable(*expression);
     if (!by_another)
@@ -44,7 +45,8 @@ void check_parameters(ImageValues& values) {
 
 ImageValues variables_without_time(const Description& description, Diagnostics& diagnostics) {
   ImageValues values{description, std::vector<double>(description.variables.size(), 0.0), diagnostics};
-  values.variables[0] = values.variables[1] = std::numeric_limits<double>::quiet_NaN();
+  for (const std::size_t i : {variable_t, variable_frame, variable_image_time})
+    values.variables[i] = std::numeric_limits<double>::quiet_NaN();
   evaluate_parameters(values);
   const TimeDependence dependence(description);
   const std::vector<const Entry*> parameters = description.parameters();
@@ -88,8 +90,8 @@ void set_time(ImageValues& values, const ImageRequest& request, const Animation&
     t = *request.time;
     if (!request.frame) frame = animation.written ? t * animation.fps + 1.0 : 1.0;
   }
-  values.variables[0] = t;
-  values.variables[1] = frame;
+  values.variables[variable_t] = values.variables[variable_image_time] = t;
+  values.variables[variable_frame] = frame;
   if (!animation.written || request.time || std::abs(t) <= greatest_magnitude) return;
   const TableView table = TableView::top(values, "animation");
   table.error("fps", "frame " + number_text(frame) + " is at t = " + number_text(t) +
@@ -200,8 +202,8 @@ std::string camera_name(const Description& description, const ImageRequest& requ
 std::vector<Dual> rates_of(const ImageValues& values, double frames_per_second) {
   std::vector<Dual> rates(values.variables.size());
   for (std::size_t i = 0; i < rates.size(); ++i) rates[i].value = values.variables[i];
-  rates[0].derivative = 1.0;
-  rates[1].derivative = frames_per_second;
+  rates[variable_t].derivative = rates[variable_image_time].derivative = 1.0;
+  rates[variable_frame].derivative = frames_per_second;
   const std::vector<const Entry*> parameters = values.description.parameters();
   for (const std::size_t i : values.description.parameter_order) {
     const auto* expression = std::get_if<Expression>(&parameters[i]->node.value);

@@ -8,6 +8,8 @@
 #include "backlight/expression/compose.h"
 #include "backlight/expression/enclosure.h"
 #include "backlight/surface/matter_motion.h"
+#include "motion_levels.h"
+#include "own_time.h"
 
 namespace backlight {
 namespace {
@@ -105,8 +107,7 @@ bool makes_sense(const TableView& table, std::string_view key, const ImplicitFor
 // Of x, y, z and t, with the parameters of this image in their places.
 Expression bound(Compilation& c, const Node& written) {
   if (const auto* number = std::get_if<double>(&written.value)) return parsed(number_text(*number), {}, {});
-  return std::get<Expression>(written.value)
-      .bind(ImplicitFormula::variables, std::span(c.values.variables).subspan(1));
+  return in_own_time(c.values, std::get<Expression>(written.value));
 }
 
 // |v| < c at all points of the bounds where the surface may be, whenever: by intervals over pieces of the
@@ -153,7 +154,7 @@ std::shared_ptr<const MatterMotion> given_motion(Compilation& c, const TableView
                 "tighter bounds help where it is only fast far away");
     return {};
   }
-  return std::make_shared<const MatterMotion>(velocity, 1.0 / c.scene.c);
+  return std::make_shared<const MatterMotion>(velocity, clock_of(c));
 }
 
 void warn_of_still_matter(const TableView& table, std::string_view key) {
@@ -209,8 +210,7 @@ std::optional<Expression> bound_formula(Compilation& c, const TableView& table) 
   const Node* written = table.node_of("f");
   const auto* formula = written != nullptr ? std::get_if<Expression>(&written->value) : nullptr;
   if (formula == nullptr) return std::nullopt;
-  const std::vector<double>& values = c.values.variables;  // t, frame, parameters
-  Expression bound = formula->bind(ImplicitFormula::variables, std::span(values).subspan(1));
+  Expression bound = in_own_time(c.values, *formula);
   for (std::size_t i = 0; i < formula_coordinates; ++i) {
     if (bound.uses(i)) return bound;
   }

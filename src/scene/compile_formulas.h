@@ -35,7 +35,8 @@ Expression blended(const std::vector<BlendPart>& parts, double blend);
 std::optional<Shape> compile_blend(Compilation& c, const TableView& table,
                                    const std::vector<BlendPart>& parts);
 
-/// What the key `f` says, with the parameters of this image in their places; nothing when it is wrong.
+/// What the key `f` says, of x, y, z and its own t, with the rest of this image in its places; nothing when
+/// it is wrong.
 std::optional<Expression> bound_formula(Compilation& c, const TableView& table);
 
 /// The written bounds; nothing when there are none or when they are wrong (and reported).

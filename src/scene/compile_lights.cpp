@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "compile_motion.h"
@@ -20,18 +21,16 @@ Colour read_colour(const TableView& table, ResourceCache& cache) {
   return white_light();
 }
 
-// In a strength, t is the light's own time; parameters keep their values of the image.
+// In a strength, t is the light's own time.
 void read_strength(const TableView& table, std::string_view key, Light& light) {
-  const Node* written = table.node_of(key);
-  const auto* expression = written != nullptr ? std::get_if<Expression>(&written->value) : nullptr;
-  if (expression == nullptr || !expression->uses(0)) {
+  const auto formula = table.in_own_time(key);
+  if (!formula) {
     light.strength = table.number(key);
     return;
   }
   light.flickers = true;
-  light.variables = table.values().variables;
-  light.strength_of_time = *expression;
-  light.strength = expression->evaluate(light.variables);
+  light.strength_of_time = *formula;
+  light.strength = light.strength_of_time.evaluate(std::array{table.values().variables[variable_t]});
 }
 
 // The light's colour takes the film's exposure; that of a blackbody, whose range passes a double's, takes the

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "backlight/expression/enclosure.h"
 #include "backlight/surface/implicit_surface.h"
 #include "camera_motion.h"
 #include "compile_formulas.h"
@@ -16,14 +17,15 @@
 namespace backlight {
 namespace {
 
-bool place_uses_time(const Node& table) {
+bool place_uses_time(const Description& description, const Node& table) {
   for (const std::string_view key : {"position", "rotate", "scale"}) {
     const Entry* entry = find(table, key);
-    if (entry != nullptr && uses_time(entry->node)) return true;
+    if (entry != nullptr && uses_time(description, entry->node)) return true;
   }
   const Entry* parts = find(table, "part");
   if (parts == nullptr || parts->node.array() == nullptr) return false;
-  return std::ranges::any_of(*parts->node.array(), place_uses_time);
+  return std::ranges::any_of(*parts->node.array(),
+                             [&](const Node& part) { return place_uses_time(description, part); });
 }
 
 /// Everywhere within a body's own box f is as it was, and outside it is undefined: an open surface ends
@@ -65,6 +67,101 @@ MatterMotion::Ball ball_of(const MatterMotion::Body& body, const SpeedProof& pro
   return ball;
 }
 
+/// The levels with what depends on t put to 0.
+std::vector<MotionLevel> at_rest(std::vector<MotionLevel> levels) {
+  for (MotionLevel& level : levels) {
+    for (Expression& angle : level.rotate) {
+      if (!angle.constant()) angle = constant_formulas(Vec3{0.0})[0];
+    }
+  }
+  return levels;
+}
+
+using Reach = std::array<Interval, 3>;
+
+/// A box about the shape in its own coordinates.
+Reach box_of(const Shape& shape) {
+  Vec3 low{std::numeric_limits<double>::infinity()};
+  Vec3 high = -low;
+  for (const HullBall& ball : hull_of(shape)) {
+    low = glm::min(low, ball.centre - ball.radius);
+    high = glm::max(high, ball.centre + ball.radius);
+  }
+  return {Interval{low.x, high.x, Continuity::continuous}, Interval{low.y, high.y, Continuity::continuous},
+          Interval{low.z, high.z, Continuity::continuous}};
+}
+
+/// Of levels whose angles alone depend on t, which are put to 0; nothing for others.
+std::optional<Placement> placement_at_rest(const std::vector<MotionLevel>& levels) {
+  Placement placement;
+  for (const MotionLevel& level : at_rest(levels)) {
+    const auto position = constants_of(level.position), rotate = constants_of(level.rotate),
+               scale = constants_of(level.scale);
+    if (level.rocket || !position || !scale) return std::nullopt;
+    placement = placement.around(Placement(*position, *rotate, *scale));
+  }
+  return placement;
+}
+
+/// Whether all that moves is one angle, and the shape with all that is within it is a surface of revolution
+/// about that axis (a plane about its normal, a sphere about any line through its centre).
+bool turns_in_itself(const Shape& shape, const std::vector<MotionLevel>& levels) {
+  const auto moving = std::ranges::find_if(levels, &MotionLevel::moves);
+  if (moving == levels.end() ||
+      std::any_of(moving + 1, levels.end(), [](const auto& l) { return l.moves(); })) {
+    return false;
+  }
+  std::vector<int> angles;
+  for (int i = 0; i < 3; ++i) {
+    if (!moving->rotate[static_cast<std::size_t>(i)].constant()) angles.push_back(i);
+  }
+  const auto scale = constants_of(moving->scale);
+  if (angles.size() != 1 || !scale || !constants_of(moving->position) || moving->rocket) return false;
+  Vec3 before{0.0};  // the angles of rotations that come before
+  for (int i = 0; i < angles.front(); ++i)
+    before[i] = *moving->rotate[static_cast<std::size_t>(i)].constant();
+  const auto inner = placement_at_rest({moving + 1, levels.end()});
+  if (!inner) return false;
+  const Placement within = Placement(Vec3{0.0}, before, *scale).around(*inner);
+  const auto is_small = [](double x) { return std::abs(x) <= 1e-14; };
+  Vec3 axis{0.0};
+  axis[angles.front()] = 1.0;
+  if (!is_small(glm::length(glm::cross(axis, within.position())))) return false;
+  const Mat3& m = within.rest_from_local();
+  const double x = glm::length(m[0]), y = glm::length(m[1]), z = glm::length(m[2]);
+  const bool square = is_small(glm::dot(m[0], m[1]) / (x * y)) && is_small(glm::dot(m[1], m[2]) / (y * z)) &&
+                      is_small(glm::dot(m[2], m[0]) / (z * x));
+  if (!square || !is_small(x / z - 1.0)) return false;
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return is_small(x / y - 1.0) || is_small(glm::length(glm::cross(axis, m[1])) / y);
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+    case ShapeKind::torus:
+    case ShapeKind::disk:
+    case ShapeKind::plane:
+      return is_small(glm::length(glm::cross(axis, m[1])) / y);
+    default:
+      return false;
+  }
+}
+
+/// Whether anything that matter has by its own time depends on it: a material, its presence, the light around
+/// it.
+bool lives_by_own_time(const Description& description, const Node& node, bool of_matter) {
+  if (of_matter && uses_time(description, node)) return true;
+  if (const NodeArray* array = node.array()) {
+    return std::ranges::any_of(
+        *array, [&](const Node& one) { return lives_by_own_time(description, one, of_matter); });
+  }
+  const NodeTable* table = node.table();
+  return table != nullptr && std::ranges::any_of(*table, [&](const Entry& entry) {
+           const bool matters =
+               entry.name == "material" || entry.name == "visible" || entry.name == "radiance";
+           return lives_by_own_time(description, entry.node, of_matter || matters);
+         });
+}
+
 class MotionCompiler {
  public:
   MotionCompiler(Compilation& c, const TableView& object, int frame)
@@ -84,59 +181,56 @@ class MotionCompiler {
       moving.placement = Placement(offset, Vec3{0.0}, Vec3{1.0});
     }
     offset_ = moving.placement.position();
-    if (solid == nullptr) {
-      if (auto turned = turned_in_place(shape, whole)) return turned;
-      auto leaf = leaf_in_motion(object_, shape, {whole}, false);
-      if (!leaf) return std::nullopt;
-      moving.shape = *std::move(leaf);
-      return moving;
+    SolidTree tree;
+    if (solid != nullptr) {
+      tree = *solid;
+    } else {
+      tree.shape = shape;
     }
-    SolidTree tree = *solid;
-    if (!put_parts_in_motion(object_, tree, {whole})) return std::nullopt;
-    moving.shape = csg(tree);
+    if (!put_parts_in_motion(object_, tree, {whole}, solid != nullptr)) return std::nullopt;
+    if (solid != nullptr) {
+      moving.shape = csg(tree);
+    } else {
+      moving.shape = tree.shape;
+      moving.placement = moving.placement.around(tree.placement);
+    }
     return moving;
   }
 
  private:
-  bool put_parts_in_motion(const TableView& table, SolidTree& tree, const std::vector<MotionLevel>& levels) {
+  bool put_parts_in_motion(const TableView& table, SolidTree& tree, const std::vector<MotionLevel>& levels,
+                           bool closed) {
     tree.placement = Placement{};
-    if (tree.parts.empty()) {
-      auto leaf = leaf_in_motion(table, tree.shape, levels, true);
-      if (leaf) tree.shape = *std::move(leaf);
-      return leaf.has_value();
-    }
+    if (tree.parts.empty()) return put_leaf_in_motion(table, tree, levels, closed);
     const NodeArray& written = *table.node_of("part")->array();
     bool good = true;
     for (std::size_t i = 0; i < tree.parts.size(); ++i) {
       const TableView part(c_.values, &written[i], *find_table("object.part"));
       std::vector<MotionLevel> inner = levels;
       inner.push_back(level_of(part));
-      good = put_parts_in_motion(part, tree.parts[i], inner) && good;
+      good = put_parts_in_motion(part, tree.parts[i], inner, closed) && good;
     }
     return good;
   }
 
-  /// A surface of revolution that turns about its own axis stays where it is: it keeps its closed form.
-  std::optional<MovingShape> turned_in_place(const Shape& shape, const MotionLevel& whole) {
-    const auto scale = constants_of(whole.scale);
-    const bool still = scale && !whole.rocket && constants_of(whole.position);
-    if (!still || constants_of(whole.rotate)) return std::nullopt;
-    const bool ball = shape.kind == ShapeKind::sphere && scale->x == scale->y && scale->y == scale->z;
-    const bool revolves = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::cylinder ||
-                          shape.kind == ShapeKind::cone || shape.kind == ShapeKind::torus ||
-                          shape.kind == ShapeKind::disk || shape.kind == ShapeKind::plane;
-    const auto about_x = whole.rotate[0].constant();
-    const auto about_z = whole.rotate[2].constant();
-    const bool about_axis = revolves && scale->x == scale->z && about_x == 0.0 && about_z;
-    if (!ball && !about_axis) return std::nullopt;
-    MotionLevel own = whole;
-    own.scale = constant_formulas(Vec3{1.0});
-    if (!ball) own.rotate[2] = constant_formulas(Vec3{0.0})[2];
-    if (!prover_.prove(object_, {whole}, hull_of(shape), offset_)) return std::nullopt;
-    MovingShape turned{shape, Placement(offset_, {0.0, 0.0, ball ? 0.0 : *about_z}, *scale)};
-    turned.shape.motion =
-        std::make_shared<const MatterMotion>(body_of({own}), shape, std::nullopt, 1.0 / c_.scene.c);
-    return turned;
+  /// What stays where it is keeps its own form: what does not move, and a surface of revolution that turns
+  /// about its own axis.
+  bool put_leaf_in_motion(const TableView& table, SolidTree& leaf, const std::vector<MotionLevel>& levels,
+                          bool closed) {
+    const bool moves = std::ranges::any_of(levels, &MotionLevel::moves);
+    const auto rest =
+        moves && !turns_in_itself(leaf.shape, levels) ? std::nullopt : placement_at_rest(levels);
+    if (!rest) {
+      auto moved = leaf_in_motion(table, leaf.shape, levels, closed);
+      if (moved) leaf.shape = *std::move(moved);
+      return moved.has_value();
+    }
+    leaf.placement = *rest;
+    if (!moves) return true;
+    if (!prover_.prove(table, levels, hull_of(leaf.shape), offset_)) return false;
+    leaf.shape.motion = std::make_shared<const MatterMotion>(body_within(levels, at_rest(levels)), leaf.shape,
+                                                             std::nullopt, clock_of(c_));
+    return true;
   }
 
   std::optional<Shape> leaf_in_motion(const TableView& table, const Shape& shape,
@@ -145,19 +239,23 @@ class MotionCompiler {
     if (!formula) return std::nullopt;
     SurfaceSet one;
     one.add(shape, Placement{});
-    const TableView& in_motion = place_uses_time(*table.node()) ? table : object_;
+    const TableView& in_motion = place_uses_time(c_.values.description, *table.node()) ? table : object_;
     const auto proof = prover_.prove(in_motion, levels, hull_of(shape), offset_);
     if (!proof) return std::nullopt;
     const MatterMotion::Body body = body_of(levels);
-    const MatterMotion::Ball ball = ball_of(
-        body, *proof, one.bounds(0).radius * stretch_of(levels, proof->begins) * (1.0 + 1e-12), c_.scene.c);
+    const Interval times = times_of(*proof);
+    const double radius = one.bounds(0).radius * stretch_of(levels, times.lower, times.upper);
+    const MatterMotion::Ball ball = ball_of(body, *proof, radius * (1.0 + 1e-12), c_.scene.c);
     Vec3 low{0.0}, high{0.0};
     bool rests = std::isinf(ball.begins);
+    const Reach box = box_of(shape);
     for (std::size_t i = 0; i < 3; ++i) {
-      const double from = std::isinf(proof->begins) ? -1e15 : proof->begins;
-      const Interval range = over_times(ball.path[i], from, prover_.last()).value;
-      low[static_cast<int>(i)] = range.lower - ball.radius;
-      high[static_cast<int>(i)] = range.upper + ball.radius;
+      const int k = static_cast<int>(i);
+      const Interval path = over_times(ball.path[i], times.lower, times.upper).value;
+      // All places of a box about the body, and those of a ball about its centre.
+      const Interval places = enclose(body.place[i].tape(), std::array{box[0], box[1], box[2], times});
+      low[k] = std::max(path.lower - ball.radius, places.lower - 1e-12 * ball.radius);
+      high[k] = std::min(path.upper + ball.radius, places.upper + 1e-12 * ball.radius);
       rests = rests && ball.path[i].constant();
     }
     // Errors of its points are told by the size of its bounds, which those of a thing that leaves are not.
@@ -172,7 +270,7 @@ class MotionCompiler {
     options.unresolved = shape.values[7] == 1.0 && shape.kind == ShapeKind::implicit ? UnresolvedRoots::skip
                                                                                      : UnresolvedRoots::take;
     options.motion = std::make_shared<const MatterMotion>(
-        body, shape, rests ? std::nullopt : std::optional(ball), options.seconds_per_length);
+        body, shape, rests ? std::nullopt : std::optional(ball), clock_of(c_));
     options.finder = RootFinder::affine;
     if (shape.blend) {
       auto blend = std::make_shared<ImplicitBlend>();
@@ -186,18 +284,10 @@ class MotionCompiler {
     return implicit(moved, low, high, options);
   }
 
-  /// How much at most a body is stretched.
-  double stretch_of(const std::vector<MotionLevel>& levels, double begins) const {
-    double stretch = 1.0;
-    for (const MotionLevel& level : levels) {
-      double largest = 0.0;
-      for (const Expression& scale : level.scale) {
-        const Interval range = over_times(scale, std::isinf(begins) ? -1e15 : begins, prover_.last()).value;
-        largest = std::max({largest, std::abs(range.lower), std::abs(range.upper)});
-      }
-      stretch *= largest;
-    }
-    return stretch;
+  /// For which it is proved.
+  [[nodiscard]] Interval times_of(const SpeedProof& proof) const {
+    if (std::isinf(proof.begins)) return {-always, always, Continuity::continuous};
+    return {proof.begins, prover_.last(), Continuity::continuous};
   }
 
   std::optional<Expression> body_formula(const TableView& table, const Shape& shape, bool closed) {
@@ -248,7 +338,7 @@ class MotionCompiler {
 
 std::array<Expression, 3> formulas_of(const TableView& table, std::string_view key, const Vec3& now) {
   const Node* node = table.node_of(key);
-  if (node == nullptr || !uses_time(*node)) return constant_formulas(now);
+  if (node == nullptr || !uses_time(table.values().description, *node)) return constant_formulas(now);
   std::array<Expression, 3> formulas;
   for (std::size_t i = 0; i < 3; ++i) {
     const NodeArray* three = node->array();
@@ -273,7 +363,7 @@ void take_rocket(const TableView& table, double c, MotionLevel& level) {
   level.rocket = {rocket.number("acceleration") / (c * c), along->rounded(), c};
   for (const char* key : {"position", "rotate", "scale"}) {
     const Entry* written = find(*table.node(), key);
-    if (written != nullptr && uses_time(written->node)) {
+    if (written != nullptr && uses_time(table.values().description, written->node)) {
       table.error(key,
                   std::string("what flies with a rocket cannot also move by a formula of t in '") + key + "'",
                   "a solid's parts can, within it");
@@ -281,9 +371,17 @@ void take_rocket(const TableView& table, double c, MotionLevel& level) {
   }
 }
 
+MatterMotion::Time clock_of(const Compilation& c) {
+  const auto& aovs = c.scene.film.aovs;
+  const bool shown = std::ranges::find(aovs, "properTime") != aovs.end();
+  return {1.0 / c.scene.c,
+          shown || lives_by_own_time(c.values.description, c.values.description.root, false)};
+}
+
 bool is_in_motion(const TableView& thing) {
   if (thing.node() == nullptr) return false;
-  return find(*thing.node(), "rocket") != nullptr || (!has_motion(thing) && place_uses_time(*thing.node()));
+  return find(*thing.node(), "rocket") != nullptr ||
+         (!has_motion(thing) && place_uses_time(thing.values().description, *thing.node()));
 }
 
 std::shared_ptr<const MatterMotion> path_of(Compilation& c, const TableView& light, int frame) {
@@ -298,7 +396,7 @@ std::shared_ptr<const MatterMotion> path_of(Compilation& c, const TableView& lig
   if (!proof) return {};
   const MatterMotion::Body body = body_of({level});
   MatterMotion::Ball ball = ball_of(body, *proof, 0.0, c.scene.c);
-  return std::make_shared<const MatterMotion>(body, sphere(1.0), ball, 1.0 / c.scene.c);
+  return std::make_shared<const MatterMotion>(body, sphere(1.0), ball, clock_of(c));
 }
 
 std::optional<MovingShape> put_in_motion(Compilation& c, const TableView& object, int frame,

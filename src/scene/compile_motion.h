@@ -1,4 +1,4 @@
-// Objects whose position, rotate or scale depend on t, and so move: docs/physics.md section 13.
+// Objects whose position, rotate or scale depend on t, and so move: docs/physics.md section 10.
 #pragma once
 
 #include <memory>

@@ -233,13 +233,9 @@ Vec3 read_scale(const TableView& table) {
 std::optional<CompiledShape> compile_shape(Compilation& c, const TableView& object, Materials& materials,
                                            int material) {
   auto compiled = ShapeReader(c, materials).object(object, material);
-  const Node* visible = object.node_of("visible");
-  if (!compiled || visible == nullptr) return compiled;
-  const auto* formula = std::get_if<Expression>(&visible->value);
-  if (formula != nullptr) {
-    const std::span<const double> others = std::span(c.values.variables).subspan(1);
-    compiled->shape.presence =
-        std::make_shared<const Presence>(Presence{formula->bind(1, others), 1.0 / c.scene.c});
+  if (!compiled || !object.has_valid("visible")) return compiled;
+  if (const auto formula = object.in_own_time("visible")) {
+    compiled->shape.presence = std::make_shared<const Presence>(Presence{*formula, 1.0 / c.scene.c});
   } else if (object.number("visible") <= 0.0) {
     object.error("visible", "'visible' is never positive: the object is never there", "remove the object");
   }

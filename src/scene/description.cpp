@@ -23,11 +23,19 @@ SourceSpan Description::span(const Place& place) const {
           static_cast<int>(place.length)};
 }
 
+bool Description::depends_on_t(const Expression& expression) const {
+  const std::size_t first = expression.variables() - variables.size();  // of x, y and z, if it is a surface's
+  const std::vector<std::size_t> used = expression.used_variables();
+  return std::any_of(used.begin(), used.end(),
+                     [&](std::size_t i) { return i >= first && follows_t[i - first]; });
+}
+
 std::vector<const Entry*> Description::parameters() const {
   std::vector<const Entry*> entries(variables.size(), nullptr);
   const Entry* table = find(root, "params");
   if (table == nullptr || table->node.table() == nullptr) return entries;
-  std::size_t next = 2;  // they are in the order of the table, which may have unusable ones among them
+  std::size_t next =
+      first_parameter;  // they are in the order of the table, which may have unusable ones among them
   for (const Entry& entry : *table->node.table()) {
     if (next < variables.size() && entry.name == variables[next]) entries[next++] = &entry;
   }

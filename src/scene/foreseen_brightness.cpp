@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "backlight/colour/observer.h"
+#include "backlight/scene/material_in_time.h"
 #include "compile_parts.h"
 #include "words.h"
 
@@ -49,8 +51,9 @@ class Foresight {
         materials.push_back(of.material);
         for (const int material : materials) {
           const Material& m = c_.scene.materials[static_cast<std::size_t>(material)];
-          if (m.emission == nullptr || !seen.emplace(material, frame).second) continue;
-          warn(m.emission->spectrum, static_cast<int>(frame), written(m, of), "the emission");
+          const auto emitted = emission_of(m);
+          if (!emitted || !seen.emplace(material, frame).second) continue;
+          warn(*emitted, static_cast<int>(frame), written(m, of), "the emission");
         }
       }
     }
@@ -69,6 +72,17 @@ class Foresight {
   }
 
  private:
+  // Of what runs by its own time, as it is when its clock shows the image's.
+  [[nodiscard]] std::optional<Spectrum> emission_of(const Material& material) const {
+    const bool changes = material.in_time && material.in_time->emission;
+    if (!changes && !material.emission) return std::nullopt;
+    if (!changes) return material.emission->spectrum;
+    const EmissionNow now = emission_at(*material.in_time->emission, c_.scene.time);
+    if (!std::isfinite(now.strength)) return std::nullopt;
+    if (now.body) return now.body;
+    return now.colour ? Spectrum::illuminant(*now.colour) : material.emission->spectrum.scaled(now.strength);
+  }
+
   const Node& written(const Material& material, const Object& object) const {
     const Node& root = c_.values.description.root;
     if (!material.name.empty()) return find(find(root, "material")->node, material.name)->node;

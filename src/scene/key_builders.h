@@ -61,6 +61,21 @@ inline Key structured(std::string_view name, std::vector<ValueForm> forms, std::
   return {name, std::move(forms), Nothing{}, "", meaning, {}, {}};
 }
 
+/// `t` in it is the thing's own time.
+inline Key own(Key key) {
+  key.clock = Clock::own;
+  return key;
+}
+
+/// As a formula of `t` it is motion of matter.
+inline Key of_motion(Key key) {
+  key.clock = Clock::motion;
+  return key;
+}
+
+/// All other keys of these tables are Clock::anew, with what is physical instead.
+void set_clocks(std::vector<KeyTable>& tables);
+
 /// The five ways of saying how a thing moves.
 void add_motion(std::vector<Key>& keys);
 

@@ -19,7 +19,7 @@ KeyTable light() {
               "every surface, in the surface's own rest frame (a convenience; no such light exists), its "
               "strength by the "
               "time of that frame."),
-       numbers("position", 3, std::vector<double>{0, 0, 0}, "length", "Where it is."),
+       of_motion(numbers("position", 3, std::vector<double>{0, 0, 0}, "length", "Where it is.")),
        boolean("shadows", true,
                "Whether what stands in its way hides it. Without, no shadow rays are traced for it: a fill "
                "light. An `ambient` light throws none."),
@@ -50,18 +50,18 @@ std::vector<KeyTable> light_types() {
   return {{"light.point",
            "[[light]]",
            "A white surface facing it at distance r, at rest, has film Y = intensity/(π r²).",
-           {number("intensity", 1.0, "film Y · length²", "Radiant intensity.", at_least(0))},
+           {own(number("intensity", 1.0, "film Y · length²", "Radiant intensity.", at_least(0)))},
            ""},
           {"light.distant",
            "[[light]]",
            "A white surface facing it, at rest to it, has film Y = irradiance/π.",
            {numbers("direction", 3, Required{}, "", "Where its light travels to; of any length but zero."),
-            number("irradiance", 1.0, "film Y", "Irradiance of a surface that faces it.", at_least(0))},
+            own(number("irradiance", 1.0, "film Y", "Irradiance of a surface that faces it.", at_least(0)))},
            ""},
           {"light.ambient",
            "[[light]]",
            "A white surface has film Y = radiance from it.",
-           {number("radiance", 1.0, "film Y", "Radiance from every side.", at_least(0))},
+           {own(number("radiance", 1.0, "film Y", "Radiance from every side.", at_least(0)))},
            ""}};
 }
 
@@ -170,7 +170,9 @@ KeyTable region() {
 std::vector<KeyTable> light_tables() {
   std::vector<KeyTable> tables{light()};
   for (KeyTable& type : light_types()) tables.push_back(std::move(type));
-  for (const KeyTable& table : {background(), stars(), effects(), region()}) tables.push_back(table);
+  for (const KeyTable& table : {background(), stars()}) tables.push_back(table);
+  set_clocks(tables);
+  for (const KeyTable& table : {effects(), region()}) tables.push_back(table);
   return tables;
 }
 

@@ -32,8 +32,15 @@ KeyTable material() {
       "[material.NAME] or material = { ... }",
       "What a surface is made of, in its rest frame: a Lambert reflector of one of `color`, `texture`, "
       "`checker` "
-      "and `spectrum` (without any of them, a grey of 0.8), with a Phong lobe, and with light of its own.",
-      {numbers("color", 3, Nothing{}, "", "Reflectance: linear red, green, blue (Rec.709).", between(0, 1)),
+      "and `spectrum` (without any of them, a grey of 0.8), with a Phong lobe, and with light of its own. "
+      "Where a formula of the "
+      "matter's own time leaves what is allowed, a share of light is the nearer of 0 and 1, a negative "
+      "emission "
+      "is none, and at a temperature of 0 or less nothing is emitted; where it has no value, the pixel is "
+      "not "
+      "finite, and counted so.",
+      {own(numbers("color", 3, Nothing{}, "", "Reflectance: linear red, green, blue (Rec.709).",
+                   between(0, 1))),
        structured("texture", {{ValueKind::path}},
                   "An image file of reflectances, over the shape's texture coordinates."),
        structured("checker", {{ValueKind::table, 0, "material.checker"}}, "A pattern of two reflectances."),
@@ -41,26 +48,28 @@ KeyTable material() {
            "spectrum", {{ValueKind::table, 0, "spectrum"}, {ValueKind::path}},
            "Reflectance by wavelength: a table, or a CSV file of wavelengths in nm and values. Outside the "
            "given wavelengths the end values are kept."),
-       number("uv", Nothing{}, "",
-              "Reflectance in the ultraviolet, which the Doppler effect may bring into view. Without it, "
-              "that of "
-              "the violet end is kept.",
-              between(0, 1)),
-       number("ir", Nothing{}, "", "Reflectance in the infrared; without it, that of the red end is kept.",
-              between(0, 1)),
-       number("specular", 0.0, "", "The share of the light that the Phong lobe reflects.", between(0, 1)),
-       number("shininess", 50.0, "", "The exponent of the Phong lobe.", above(0)),
-       number(
+       own(number("uv", Nothing{}, "",
+                  "Reflectance in the ultraviolet, which the Doppler effect may bring into view. Without it, "
+                  "that of "
+                  "the violet end is kept.",
+                  between(0, 1))),
+       own(number("ir", Nothing{}, "",
+                  "Reflectance in the infrared; without it, that of the red end is kept.", between(0, 1))),
+       own(number("specular", 0.0, "", "The share of the light that the Phong lobe reflects.",
+                  between(0, 1))),
+       own(number("shininess", 50.0, "", "The exponent of the Phong lobe.", above(0))),
+       own(number(
            "emission", 0.0, "film Y",
            "Own radiance, added to what is reflected; with `absolute` an emissivity, without a unit, and 1 "
            "unless it is given.",
-           at_least(0)),
-       number("temperature", Nothing{}, "K", "The emission is a blackbody's of this temperature.", above(0)),
+           at_least(0))),
+       own(number("temperature", Nothing{}, "K", "The emission is a blackbody's of this temperature.",
+                  above(0))),
        boolean("absolute", false,
                "Beside `temperature`: the film Y of the emission is the blackbody's luminance in cd/m² times "
                "`emission` and `exposure` of `[film]`."),
-       numbers("emission_color", 3, Nothing{}, "", "The emission's color, which `emission` multiplies.",
-               at_least(0)),
+       own(numbers("emission_color", 3, Nothing{}, "", "The emission's color, which `emission` multiplies.",
+                   at_least(0))),
        structured("emission_spectrum", {{ValueKind::table, 0, "spectrum"}, {ValueKind::path}},
                   "The emission's relative power by wavelength, scaled so that its film Y is `emission`: as "
                   "a light's `spectrum`."),
@@ -80,7 +89,8 @@ KeyTable checker() {
             "",
             "Two reflectances, each `[red, green, blue]`: `[[1, 1, 1], [0.1, 0.1, 0.1]]`.",
             between(0, 1),
-            {}},
+            {},
+            Clock::own},
            number("size", 1.0, "texture coordinates",
                   "Edge of a square. A plane's texture coordinates are lengths; the others go from 0 to 1.",
                   above(0))},
@@ -119,16 +129,17 @@ void add_shape_keys(std::vector<Key>& keys, std::string_view centre, std::string
                   {},
                   {"sphere", "box", "cylinder", "cone", "torus", "disk", "plane", "quadric", "implicit",
                    "union", "intersection", "difference"}});
-  keys.push_back(numbers("position", 3, std::vector<double>{0, 0, 0}, "length", centre));
-  keys.push_back(numbers("rotate", 3, std::vector<double>{0, 0, 0}, "degrees",
-                         "Turned about the x axis, then about y, then about z (fixed axes)."));
+  keys.push_back(of_motion(numbers("position", 3, std::vector<double>{0, 0, 0}, "length", centre)));
+  keys.push_back(of_motion(numbers("rotate", 3, std::vector<double>{0, 0, 0}, "degrees",
+                                   "Turned about the x axis, then about y, then about z (fixed axes).")));
   keys.push_back({"scale",
                   {{ValueKind::number}, {ValueKind::numbers, 3}},
                   1.0,
                   "",
                   "Stretched along its own axes before it is turned: a number or `[x, y, z]`, not zero.",
                   {.magnitude = greatest_magnitude},
-                  {}});
+                  {},
+                  Clock::motion});
   keys.push_back(structured(
       "material", {{ValueKind::reference, 0, "material"}, {ValueKind::table, 0, "material"}}, material));
 }
@@ -150,10 +161,10 @@ KeyTable object() {
                                "Whether it is in the way of light, its own surface's included. False: it "
                                "is seen and lit like any other, and hides no lamp: the bulb about one."));
   table.keys.push_back(
-      number("visible", Nothing{}, "",
-             "A formula of `t`, the own time of its matter: it is there while that is positive. A "
-             "flash, a door that shuts, a digit of a clock. Without it, it is always there.",
-             {}));
+      own(number("visible", Nothing{}, "",
+                 "A formula of `t`, the own time of its matter: it is there while that is positive. A "
+                 "flash, a door that shuts, a digit of a clock. Without it, it is always there.",
+                 {})));
   table.keys.push_back(structured("repeat", {{ValueKind::table, 0, "object.repeat"}},
                                   "Copies of it, all at rest in the same frame and of the same `objectId`."));
   add_motion_or_frame(table.keys);
@@ -252,11 +263,11 @@ std::vector<KeyTable> shapes() {
         {{ValueKind::formula}},
         Required{},
         "",
-        "Of `x`, `y`, `z` (its own coordinates), `t` (its own proper time in seconds: it may pulsate), "
-        "`frame` "
-        "and the parameters; with the functions of every expression.",
+        "Of `x`, `y`, `z` (its own coordinates) and `t` (its own proper time in seconds: it may pulsate), "
+        "with what every expression may use.",
         {},
-        {}},
+        {},
+        Clock::own},
        points("bounds", 2, "length",
               "Two opposite corners of a box in its own coordinates: nothing is seen of the surface outside. "
               "Without it, a box is sought outside which f is proved to be positive (or negative): that "
@@ -273,7 +284,8 @@ std::vector<KeyTable> shapes() {
         "it the "
         "matter is at rest, and the surface goes through it like a wave.",
         {},
-        {}},
+        {},
+        Clock::own},
        unresolved()});
   const auto solid = [&](std::string_view name, std::string_view meaning, std::vector<Key> more) {
     std::vector<Key> keys{
@@ -317,6 +329,7 @@ std::vector<KeyTable> matter_tables() {
   for (KeyTable& shape : shapes()) tables.push_back(std::move(shape));
   tables.push_back(part());
   tables.push_back(repeat());
+  set_clocks(tables);
   return tables;
 }
 

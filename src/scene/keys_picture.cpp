@@ -31,13 +31,14 @@ KeyTable top() {
 }
 
 KeyTable parameters() {
-  return {"params",
-          "[params]",
-          "Numbers with names of your own, usable in every expression. A parameter may use `t`, `frame` and "
-          "other "
-          "parameters, in any order, but not itself.",
-          {},
-          ""};
+  return {
+      "params",
+      "[params]",
+      "Numbers with names of your own, usable in every expression. A parameter may use `t`, `frame`, "
+      "`image_time` and other parameters, in any order, but not itself. One that uses `t` is a formula: its "
+      "`t` is that of the place where the parameter is used.",
+      {},
+      ""};
 }
 
 KeyTable animation() {
@@ -45,10 +46,11 @@ KeyTable animation() {
       "animation",
       "[animation]",
       "Frame number n is the image at the scene time t = (n - 1)/fps. Without this table t = 0.",
-      {number("fps", 25.0, "1/s", "Frames a second of scene time. Does not depend on `t` or `frame`.",
-              above(0)),
+      {number("fps", 25.0, "1/s",
+              "Frames a second of scene time. Does not depend on `t`, `image_time` or `frame`.", above(0)),
        numbers("frames", 2, std::vector<double>{1, 1}, "",
-               "The first and the last frame number. Do not depend on `t` or `frame`.", whole(-1e6, 1e6))},
+               "The first and the last frame number. Do not depend on `t`, `image_time` or `frame`.",
+               whole(-1e6, 1e6))},
       ""};
 }
 

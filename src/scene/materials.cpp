@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "materials_in_time.h"
+
 namespace backlight {
 namespace {
 
@@ -221,7 +223,8 @@ int Materials::add(const MaterialPlan::Place& place) {
   read(place);
   if (parts_.kept) {
     plan_.places.push_back(place);
-    plan_.changes = plan_.changes || (place.written != nullptr && parts_.dependence.changes(*place.written));
+    plan_.changes = plan_.changes || (place.written != nullptr &&
+                                      parts_.dependence.changes(*place.written, *find_table("material")));
   }
   return static_cast<int>(materials_.size()) - 1;
 }
@@ -231,17 +234,32 @@ void Materials::read(const MaterialPlan::Place& place) {
   materials_.emplace_back();
   Material& material = materials_.back();
   material.name = place.name;
-  read_reflectance(table, material);
-  material.specular = table.number("specular");
-  material.shininess = table.number("shininess");
-  read_emission(table, material);
+  MaterialInTime in_time;
+  read_reflectance(table, material, in_time);
+  if (const auto lobe = read_lobe_in_time(table)) {
+    in_time.lobe = lobe;
+  } else {
+    material.specular = table.number("specular");
+    material.shininess = table.number("shininess");
+  }
+  read_emission(table, material, in_time);
+  if (in_time.reflectance || in_time.lobe || in_time.emission)
+    material.in_time = std::make_shared<const MaterialInTime>(std::move(in_time));
 }
 
-void Materials::read_reflectance(const TableView& table, Material& material) {
+void Materials::read_reflectance(const TableView& table, Material& material, MaterialInTime& in_time) {
   const std::string_view given = table.one_of({"color", "texture", "checker", "spectrum"});
+  material.reflectance = grey(default_grey);
+  const auto changing =
+      given != "spectrum" ? read_reflectance_in_time(table, given, default_grey) : std::nullopt;
+  if (changing) {
+    in_time.reflectance = changing;
+    if (given == "texture") material.texture = read_texture(table, "texture", cache_);
+    if (given == "checker") material.checker = read_checker(table);
+    return;
+  }
   const auto uv = table.optional_number("uv");
   const auto ir = table.optional_number("ir");
-  material.reflectance = grey(default_grey);
   if (given.empty() || given == "color") {
     if (given == "color") material.reflectance.rgb = table.vector("color");
     pending_.push_back({materials_.size() - 1, nullptr, 0, uv, ir});
@@ -271,13 +289,16 @@ std::shared_ptr<Checker> Materials::read_checker(const TableView& table) {
   if (colours == nullptr || colours->array() == nullptr) return nullptr;
   auto checker = std::make_shared<Checker>();
   checker->size = size;
-  for (std::size_t i = 0; i < 2; ++i) checker->colours[i].rgb = keys.vector_at("colors", i);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!keys.vector_in_own_time("colors", i)) checker->colours[i].rgb = keys.vector_at("colors", i);
+  }
   return checker;
 }
 
-void Materials::read_emission(const TableView& table, Material& material) {
+void Materials::read_emission(const TableView& table, Material& material, MaterialInTime& in_time) {
   const bool absolute = table.boolean("absolute");
-  const double emission = absolute && !table.has("emission") ? 1.0 : table.number("emission");
+  const auto strength = table.in_own_time("emission");
+  const double emission = strength || (absolute && !table.has("emission")) ? 1.0 : table.number("emission");
   std::string_view given = table.one_of({"temperature", "emission_color", "emission_spectrum"});
   check_absolute(table, given);
   const bool wanted = light_lines_stand_alone(table, given, "emission_spectrum");
@@ -287,17 +308,22 @@ void Materials::read_emission(const TableView& table, Material& material) {
                 "add emission = 1, or remove it");
   }
   if (!(emission > 0.0) || !wanted) return;
-  Colour light = white_light();
-  if (given == "temperature") {
-    if (const auto body = read_blackbody(table)) light = *body;
-  } else if (given == "emission_color") {
-    light = coloured_light(table.vector("emission_color"));
-  } else if (!given.empty()) {
-    const auto spectrum = read_light_spectrum(table, "emission_spectrum", cache_);
-    if (!spectrum) return;
-    light = *spectrum;
+  auto changing = read_emission_in_time(table, given, emission, exposure_);
+  if (changing && (changing->temperature || changing->colour)) {
+    in_time.emission = std::move(changing);
+    return;
   }
-  material.emission = std::make_shared<const Colour>(times(times(light, emission), exposure_));
+  const auto light = read_emission_light(table, given);
+  if (!light) return;
+  material.emission = std::make_shared<const Colour>(times(times(*light, emission), exposure_));
+  if (changing) in_time.emission = std::move(changing);
+}
+
+std::optional<Colour> Materials::read_emission_light(const TableView& table, std::string_view given) {
+  if (given == "temperature") return read_blackbody(table).value_or(white_light());
+  if (given == "emission_color") return coloured_light(table.vector("emission_color"));
+  if (!given.empty()) return read_light_spectrum(table, "emission_spectrum", cache_);
+  return white_light();
 }
 
 SharedVector<Material> Materials::finish(CompileCounts& counts) {

@@ -71,9 +71,10 @@ class Materials {
   int add(const MaterialPlan::Place& place);
   void read(const MaterialPlan::Place& place);
   void make_spectra();
-  void read_reflectance(const TableView& table, Material& material);
+  void read_reflectance(const TableView& table, Material& material, MaterialInTime& in_time);
   static std::shared_ptr<Checker> read_checker(const TableView& table);
-  void read_emission(const TableView& table, Material& material);
+  void read_emission(const TableView& table, Material& material, MaterialInTime& in_time);
+  [[nodiscard]] std::optional<Colour> read_emission_light(const TableView& table, std::string_view given);
 
   double exposure_;
   ImageValues& values_;

@@ -4,6 +4,7 @@
 
 #include "backlight/surface/implicit.h"
 #include "backlight/surface/placement.h"
+#include "own_time.h"
 
 namespace backlight {
 namespace {
@@ -79,7 +80,7 @@ void move_along(Composer& composer, const Vec3& n, GraphNode way, MotionCoordina
   }
 }
 
-/// Equation (38): ξ = X·n + 1/a becomes √(ξ² ± t²).
+/// Equation (27): ξ = X·n + 1/a becomes √(ξ² ± t²).
 void fly(Composer& composer, const RocketFlight& rocket, bool forward, MotionCoordinates& x) {
   const GraphNode time = times(composer, composer.constant(rocket.c), rocket.c, x[ImplicitFormula::t]);
   const GraphNode offset = composer.constant(1.0 / rocket.acceleration);
@@ -90,13 +91,6 @@ void fly(Composer& composer, const RocketFlight& rocket, bool forward, MotionCoo
   GraphNode there = composer.apply(Operation::sqrt, other);
   if (rocket.acceleration < 0.0) there = composer.apply(Operation::negate, there);
   move_along(composer, rocket.along, composer.apply(Operation::subtract, there, here), x);
-}
-
-Expression at_level(const Expression& f, const std::vector<MotionLevel>& levels) {
-  Composer composer(ImplicitFormula::variables);
-  MotionCoordinates x = variables_of(composer);
-  for (const MotionLevel& level : levels) x = into(composer, level, x);
-  return composer.expression(composer.insert(f, x), f.text() + ", in motion");
 }
 
 }  // namespace
@@ -121,21 +115,37 @@ std::optional<Vec3> constants_of(const std::array<Expression, 3>& formulas) {
 
 Expression formula_of_time(const ImageValues& values, const Node& written) {
   if (const auto* number = std::get_if<double>(&written.value)) return constant_expression(*number + 0.0);
-  const auto& formula = std::get<Expression>(written.value);
+  const Expression formula = in_own_time(values, std::get<Expression>(written.value));
   Composer composer(ImplicitFormula::variables);
-  std::vector<GraphNode> variables{composer.variable(ImplicitFormula::t)};
-  for (std::size_t i = 1; i < values.variables.size(); ++i) {
-    variables.push_back(composer.constant(values.variables[i]));
-  }
-  return composer.expression(composer.insert(formula, variables), formula.text());
+  const std::array<GraphNode, 1> time{composer.variable(ImplicitFormula::t)};
+  return composer.expression(composer.insert(formula, time), formula.text());
 }
 
+namespace {
+
+MotionCoordinates into_all(Composer& composer, const std::vector<MotionLevel>& levels, MotionCoordinates x) {
+  for (const MotionLevel& level : levels) x = into(composer, level, x);
+  return x;
+}
+
+MotionCoordinates out_of_all(Composer& composer, const std::vector<MotionLevel>& levels,
+                             MotionCoordinates x) {
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level) x = out_of(composer, *level, x);
+  return x;
+}
+
+}  // namespace
+
 MatterMotion::Body body_of(const std::vector<MotionLevel>& levels) {
+  return body_within(levels, {});
+}
+
+MatterMotion::Body body_within(const std::vector<MotionLevel>& levels,
+                               const std::vector<MotionLevel>& within) {
   Composer composer(ImplicitFormula::variables);
-  MotionCoordinates place = variables_of(composer);
-  for (auto level = levels.rbegin(); level != levels.rend(); ++level) place = out_of(composer, *level, place);
-  MotionCoordinates point = variables_of(composer);
-  for (const MotionLevel& level : levels) point = into(composer, level, point);
+  const MotionCoordinates given = variables_of(composer);
+  const MotionCoordinates place = into_all(composer, within, out_of_all(composer, levels, given));
+  const MotionCoordinates point = into_all(composer, levels, out_of_all(composer, within, given));
   MatterMotion::Body body;
   for (std::size_t i = 0; i < 3; ++i) {
     body.place[i] = composer.expression(place[i], "place");
@@ -145,7 +155,9 @@ MatterMotion::Body body_of(const std::vector<MotionLevel>& levels) {
 }
 
 Expression moved_formula(const Expression& f, const std::vector<MotionLevel>& levels) {
-  return at_level(f, levels);
+  Composer composer(ImplicitFormula::variables);
+  const MotionCoordinates x = into_all(composer, levels, variables_of(composer));
+  return composer.expression(composer.insert(f, x), f.text() + ", in motion");
 }
 
 MotionCoordinates into(Composer& composer, const MotionLevel& level, MotionCoordinates x) {

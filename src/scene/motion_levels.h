@@ -33,6 +33,9 @@ MotionLevel level_of(const TableView& table);
 /// Adds the flight of the table's key `rocket`, if it is written. What is wrong with it is reported.
 void take_rocket(const TableView& table, double c, MotionLevel& level);
 
+/// The time of motions of the scene, and whether own times are asked for.
+MatterMotion::Time clock_of(const Compilation& c);
+
 /// What an element of a written vector says at each time: a formula of x, y, z and t.
 Expression formula_of_time(const ImageValues& values, const Node& written);
 
@@ -49,6 +52,10 @@ MotionCoordinates out_of(Composer& composer, const MotionLevel& level, MotionCoo
 
 /// The maps of levels, outermost first.
 MatterMotion::Body body_of(const std::vector<MotionLevel>& levels);
+
+/// The same in the coordinates that the levels `within` make of the outermost ones, which never move.
+MatterMotion::Body body_within(const std::vector<MotionLevel>& levels,
+                               const std::vector<MotionLevel>& within);
 
 /// The formula f of the innermost coordinates as one of the outermost.
 Expression moved_formula(const Expression& f, const std::vector<MotionLevel>& levels);

@@ -10,6 +10,7 @@
 #include "overrides.h"
 #include "references.h"
 #include "source_files.h"
+#include "things_made_anew.h"
 
 namespace backlight {
 namespace {
@@ -22,6 +23,7 @@ void finish(ReadResult& result, Description description, SourceFiles& files,
   collect_variables(description, result.diagnostics);
   const std::vector<bool> used = check_structure(description, result.diagnostics);
   check_references(description, used, result.diagnostics);
+  warn_of_things_made_anew(description, result.diagnostics);
   result.diagnostics = in_file_order(result.diagnostics, description);
   result.description.emplace(std::move(description));
 }

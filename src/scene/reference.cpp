@@ -18,10 +18,17 @@ A scene is a TOML 1.0 file. `backlight check SCENE.toml` says whether it is righ
 `backlight schema` prints a JSON Schema for editors.
 
 - Axes are right-handed with y up. Angles are in degrees. Lengths and times are in scene units that `c` ties together.
-- **Any number may be an expression** in a string: `"2*t + sin(pi*t)"`. It may use `t` (the scene time of the image in
-  seconds), `frame` (its number in the animation), the parameters of `[params]`, the functions sin cos tan asin acos
-  atan atan2 sinh cosh tanh exp log sqrt cbrt abs floor min max pow mod clamp (radians, as in C), `^` for powers, and
-  `pi` and `e`. `mod(a, b)` is a - b floor(a/b), with the sign of b: mod(-1, 3) is 2, unlike C's fmod.
+- **Any number may be an expression** in a string: `"2*t + sin(pi*t)"`. It may use `t`, `image_time` (the scene
+  time of the image in seconds), `frame` (its number in the animation), the parameters of `[params]`, the functions
+  sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt cbrt abs floor min max pow mod clamp (radians, as in C),
+  `^` for powers, and `pi` and `e`. `mod(a, b)` is a - b floor(a/b), with the sign of b: mod(-1, 3) is 2, unlike C's
+  fmod.
+- **`t` is a time in seconds, of the clock that the place has.** In what is about the picture or the camera it is
+  `image_time`. In materials, in the strength of a light and in the formula of a surface it is the thing's own time when
+  the light left it: so a ball at 0.9 c blinks by its own clock, and its rim later than its middle. What has no clock of
+  its own (a radius, a frame's origin) is evaluated anew for each image, everywhere at once and without the delay of
+  light; that is told by a warning, unless it is written with `image_time`. A parameter that uses `t` is a formula, and
+  its `t` is that of the place where it is used.
 - Colors are linear Rec.709. *Film Y* is the luminance of a film value; white is 1.
 - Mistakes are errors, reported all together: unknown keys, wrong types, duplicate names, references to nothing,
   speeds of c and more, numbers that are not finite. A definition of the scene file itself that nothing uses gives a
@@ -113,6 +120,8 @@ std::string meaning_of(const Key& key) {
     for (const std::string_view name : key.choices) names.push_back("`\"" + std::string(name) + "\"`");
     text += (key.forms.front().kind == ValueKind::choices ? " Any of " : " One of ") + listed(names) + ".";
   }
+  if (key.clock == Clock::own && key.forms.front().kind != ValueKind::formula)
+    text += " It may be a formula of its own time `t`.";
   const std::string range = key.range.words();
   if (!range.empty()) text += " Allowed: " + range + ".";
   return text;

@@ -186,7 +186,9 @@ class ParameterOrder {
         state_(description.variables.size(), State::unseen) {}
 
   void find_order() {
-    for (std::size_t i = 2; i < state_.size(); ++i) {
+    description_.follows_t.assign(description_.variables.size(), false);
+    description_.follows_t[variable_t] = true;
+    for (std::size_t i = first_parameter; i < state_.size(); ++i) {
       if (state_[i] == State::unseen) open(i);
       while (!way_.empty()) go_on();
     }
@@ -215,12 +217,14 @@ class ParameterOrder {
     if (step.uses.empty()) {
       state_[step.variable] = State::done;
       description_.parameter_order.push_back(step.variable);
+      const auto* formula = std::get_if<Expression>(&parameters_[step.variable]->node.value);
+      description_.follows_t[step.variable] = formula != nullptr && description_.depends_on_t(*formula);
       way_.pop_back();
       return;
     }
     const std::size_t used = step.uses.back();
     step.uses.pop_back();
-    if (used < 2) return;  // t and frame
+    if (used < first_parameter) return;
     if (state_[used] == State::open) report(used, step.variable);
     if (state_[used] == State::unseen) open(used);
   }
@@ -247,7 +251,7 @@ class ParameterOrder {
 void warn_of_unused_parameters(const Description& description, const std::vector<bool>& used,
                                Diagnostics& diagnostics) {
   const std::vector<const Entry*> parameters = description.parameters();
-  for (std::size_t i = 2; i < used.size(); ++i) {
+  for (std::size_t i = first_parameter; i < used.size(); ++i) {
     const Entry* entry = parameters[i];
     if (used[i] || entry->place.source != 0) continue;
     diagnostics.warning(description.span(entry->place), "the parameter '" + entry->name + "' is not used");

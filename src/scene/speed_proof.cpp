@@ -108,6 +108,22 @@ double flight_speed(const RocketFlight& rocket, const std::vector<HullBall>& hul
   return least > 0.0 ? way / std::hypot(least, way) : 1.0;
 }
 
+/// Whether no light of a body in flight, before a time (all times in lengths) when it was in `ball`, gets to
+/// the origin at the time `last`. `start`: the place from which ξ = 1/a is counted. Along the thrust the body
+/// is contracted.
+bool is_seen_later_of(const RocketFlight& rocket, const Vec3& start, const HullBall& ball, double time,
+                      double last) {
+  const double horizon =
+      1.0 / rocket.acceleration - glm::dot(start, rocket.along);  // ξ of the origin at time 0
+  if (horizon + last <= 0.0) return true;                         // no light of it at all
+  const double along = glm::dot(ball.centre, rocket.along);
+  const double aside = glm::length(ball.centre - along * rocket.along) + ball.radius;
+  const double ahead = along + horizon;
+  const double front = std::sqrt(std::max(0.0, (ahead - time) * (ahead + time))) + ball.radius;
+  const double half_length = ball.radius * front / std::hypot(front, time);
+  return std::hypot(std::abs(along) + half_length, aside) < last - time;
+}
+
 struct Speeds {
   double body;
   double centre;
@@ -128,7 +144,7 @@ Speeds speeds(const std::vector<MotionLevel>& levels, std::vector<HullBall> hull
     const double stretch = largest(scale.value);
     hull = stretched(hull, *level, scale);
     const double turning = turning_speed(*level, rotate, hull);
-    // Equation (38): of a point at ξ, |ct|/√(ξ² + c²t²).
+    // Equation (27): of a point at ξ, |ct|/√(ξ² + c²t²).
     const double path = level->rocket
                             ? c * flight_speed(*level->rocket, hull, std::max(std::abs(from), std::abs(to)))
                             : glm::length(position.rate);
@@ -145,6 +161,12 @@ Speeds speeds(const std::vector<MotionLevel>& levels, std::vector<HullBall> hull
 }
 
 }  // namespace
+
+double stretch_of(const std::vector<MotionLevel>& levels, double from, double to) {
+  double stretch = 1.0;
+  for (const MotionLevel& level : levels) stretch *= largest(sizes_of(level.scale, from, to).value);
+  return stretch;
+}
 
 IntervalSlope over_times(const Expression& formula, double from, double to) {
   constexpr std::array<double, 4> origin{};
@@ -210,27 +232,39 @@ SpeedProver::SpeedProver(Compilation& c, int frame) : c_(c) {
   const double gamma = relative_motion(its.celerity, camera.celerity).gamma;
   const double aside = camera.stereo ? gamma * camera.stereo->separation : 0.0;  // of an eye's event
   camera_ = event.x.rounded();
-  last_ = (double(event.t) + 1e-9 * std::abs(double(event.t)) + aside) / c.scene.c;
+  last_ = (double(event.t) + aside) / c.scene.c;
 }
 
 std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::vector<MotionLevel>& levels,
                                              const std::vector<HullBall>& hull, const Vec3& offset) const {
-  const std::array<double, 4> now{0.0, 0.0, 0.0, last_};
   const MatterMotion::Body body = body_of(levels);
-  const Vec3 here =
-      offset + Vec3{body.place[0].evaluate(now), body.place[1].evaluate(now), body.place[2].evaluate(now)};
   const double c = c_.scene.c;
-  const double distance = (glm::length(camera_ - here) + farthest(hull)) / c;
+  const auto body_at = [&](double time) {
+    const std::array<double, 4> origin{0.0, 0.0, 0.0, time};
+    Vec3 here = offset;
+    for (int i = 0; i < 3; ++i) here[i] += body.place[static_cast<std::size_t>(i)].evaluate(origin);
+    return HullBall{here - camera_, farthest(hull) * stretch_of(levels, time, last_)};
+  };
+  const std::optional<RocketFlight>& rocket = levels.front().rocket;
+  const Vec3 start = offset + constants_of(levels.front().position).value_or(Vec3{0.0}) - camera_;
+  // What was inside the past light cone then, with a speed below that of light since, was so ever before.
+  const auto is_seen_later = [&](double time) {
+    return rocket ? is_seen_later_of(*rocket, start, body_at(time), c * time, c * last_)
+                  : farthest({body_at(time)}) < c * (last_ - time);
+  };
   // Shadows are thrown by what was there before it is seen.
-  const double reach = 16.0 * distance;
-  const SpeedProof proof = prove_speed(levels, hull, c, last_, reach);
-  if (std::isinf(proof.begins) || proof.begins <= last_ - reach) return proof;
-  // As early can light have left it that reaches the camera now.
-  const double seen = distance / (1.0 - std::min(proof.speed, 0.999));
-  if (proof.begins < last_ - 1.000001 * seen) return proof;
+  const double reach = 16.0 * farthest({body_at(last_)}) / c;
+  const auto is_enough = [&](double time) {
+    constexpr double of_shadows = 4.0;
+    constexpr double longest = 1000.0;  // what is seen from a thousand times as far is a point at most
+    return is_seen_later(last_ - (last_ - time) / of_shadows) || (!rocket && time < last_ - longest * reach);
+  };
+  const SpeedProof proof = prove_speed(levels, hull, c, last_, reach, is_enough);
+  if (std::isinf(proof.begins) || proof.begins <= last_ - reach || is_seen_later(proof.begins)) return proof;
   const char* key = "position";
   for (const char* written : {"scale", "rotate", "position"}) {
-    if (table.node_of(written) != nullptr && uses_time(*table.node_of(written))) key = written;
+    if (table.node_of(written) != nullptr && uses_time(c_.values.description, *table.node_of(written)))
+      key = written;
   }
   table.error(
       key,
@@ -242,22 +276,22 @@ std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::
   return std::nullopt;
 }
 
-bool uses_time(const Node& node) {
-  if (const auto* formula = std::get_if<Expression>(&node.value)) return formula->uses(0);
+bool uses_time(const Description& description, const Node& node) {
+  if (const auto* formula = std::get_if<Expression>(&node.value)) return description.depends_on_t(*formula);
   const NodeArray* array = node.array();
-  return array != nullptr && std::ranges::any_of(*array, uses_time);
+  return array != nullptr &&
+         std::ranges::any_of(*array, [&](const Node& one) { return uses_time(description, one); });
 }
 
 SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector<HullBall>& hull, double c,
-                       double last, double reach) {
-  constexpr double always = -1e15;
+                       double last, double reach, const std::function<bool(double)>& is_enough) {
   const auto below = [](const Speeds& its) { return its.body < 1.0; };
-  if (const Speeds all = speeds(levels, hull, c, always, last); below(all)) return {all.body, all.centre};
+  if (const Speeds all = speeds(levels, hull, c, -always, always); below(all)) return {all.body, all.centre};
   SpeedProof proof;
   proof.begins = last;
   constexpr int most_pieces = 40'000;
   double length = reach / 64.0;
-  for (int i = 0; i < most_pieces && proof.begins > last - reach; ++i) {
+  for (int i = 0; i < most_pieces && (proof.begins > last - reach || !is_enough(proof.begins)); ++i) {
     const double from = proof.begins - length;
     const Speeds piece = speeds(levels, hull, c, from, proof.begins);
     if (below(piece)) {
@@ -268,7 +302,7 @@ SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector
     } else {
       proof.speed_before = piece.body;
       length *= 0.5;
-      if (!(length > 1e-9 * reach)) break;
+      if (!(length > (proof.begins > last - reach ? 1e-9 : 1e-4) * reach)) break;
     }
   }
   return proof;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "own_time.h"
 #include "time_dependence.h"
 
 namespace backlight {
@@ -13,7 +14,8 @@ namespace {
 std::string sentence(const Key& key, double value, const ImageValues& values, const Node& node) {
   std::string text = "'" + std::string(key.name) + "' is " + number_text(value);
   const auto* expression = std::get_if<Expression>(&node.value);
-  if (expression != nullptr && expression->uses(0)) text += " at t = " + number_text(values.variables[0]);
+  if (expression != nullptr && values.description.depends_on_t(*expression))
+    text += " at t = " + number_text(values.variables[variable_t]);
   return text;
 }
 
@@ -85,7 +87,7 @@ std::optional<double> TableView::evaluated(const Node& node, const Key& key) con
   if (key.range.contains(value)) return value + 0.0;  // -0 becomes 0: equal numbers have equal bits
   std::string message = sentence(key, value, *values_, node);
   if (depends_on_time(node, *values_)) {
-    message = "'" + std::string(key.name) + "' may not depend on t or frame";
+    message = "'" + std::string(key.name) + "' may not depend on t, frame or image_time";
   } else if (!std::isfinite(value)) {
     message += ", which is not a finite number";
   } else {
@@ -158,6 +160,42 @@ std::array<Dual, 3> TableView::moving_vector(std::string_view name) const {
     result[i] = moving(whole ? &(*array)[i] : nullptr, value[static_cast<glm::length_t>(i)]);
   }
   return result;
+}
+
+std::optional<Expression> TableView::own_formula(const Node& node) const {
+  const auto* expression = std::get_if<Expression>(&node.value);
+  if (expression == nullptr || !values_->description.depends_on_t(*expression)) return std::nullopt;
+  return backlight::in_own_time(*values_, *expression);
+}
+
+std::optional<std::array<Expression, 3>> TableView::own_formulas(const Node* node, const Key& from) const {
+  const NodeArray* array = node != nullptr ? node->array() : nullptr;
+  if (array == nullptr || array->size() != 3) return std::nullopt;
+  std::array<std::optional<Expression>, 3> formulas;
+  for (std::size_t i = 0; i < 3; ++i) formulas[i] = own_formula((*array)[i]);
+  if (std::ranges::none_of(formulas, [](const auto& formula) { return formula.has_value(); }))
+    return std::nullopt;
+  std::array<Expression, 3> whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    whole[i] = formulas[i] ? *formulas[i] : constant_formula(evaluated((*array)[i], from).value_or(0.0));
+  }
+  return whole;
+}
+
+std::optional<Expression> TableView::in_own_time(std::string_view name) const {
+  const Node* node = node_of(name);
+  return node != nullptr ? own_formula(*node) : std::nullopt;
+}
+
+std::optional<std::array<Expression, 3>> TableView::vector_in_own_time(std::string_view name) const {
+  return own_formulas(node_of(name), key(name));
+}
+
+std::optional<std::array<Expression, 3>> TableView::vector_in_own_time(std::string_view name,
+                                                                       std::size_t index) const {
+  const Node* node = node_of(name);
+  const NodeArray* array = node != nullptr ? node->array() : nullptr;
+  return array != nullptr && index < array->size() ? own_formulas(&(*array)[index], key(name)) : std::nullopt;
 }
 
 Vec3 TableView::vector(std::string_view name) const {

@@ -19,7 +19,7 @@ namespace backlight {
 /// The values of the variables of one image, and where complaints go.
 struct ImageValues {
   const Description& description;
-  std::vector<double> variables;  ///< t, frame, parameters
+  std::vector<double> variables;  ///< by index into Description::variables
   Diagnostics& diagnostics;
   std::vector<Dual> rates = {};  ///< the same with their derivatives by t; empty where nothing can move
   std::unordered_set<std::size_t> wrong_variables = {};  ///< parameters that are no numbers: reported, and 0
@@ -73,6 +73,14 @@ class TableView {
   [[nodiscard]] Dual moving_number(std::string_view key) const;
   [[nodiscard]] std::array<Dual, 3> moving_vector(std::string_view key) const;
 
+  /// Of a key whose `t` is the thing's own time: its number as a formula of `t` alone, if it depends on `t`.
+  [[nodiscard]] std::optional<Expression> in_own_time(std::string_view key) const;
+  /// The same of a vector, of which any component depends on `t`; the others are constants, and checked.
+  [[nodiscard]] std::optional<std::array<Expression, 3>> vector_in_own_time(std::string_view key) const;
+  /// The same of element `index` of an array of vectors.
+  [[nodiscard]] std::optional<std::array<Expression, 3>> vector_in_own_time(std::string_view key,
+                                                                            std::size_t index) const;
+
   /// Element `index` of an array of three numbers each.
   [[nodiscard]] Vec3 vector_at(std::string_view key, std::size_t index) const;
   [[nodiscard]] bool boolean(std::string_view key) const;
@@ -95,6 +103,8 @@ class TableView {
   [[nodiscard]] std::optional<double> evaluated(const Node& node, const Key& key) const;
   [[nodiscard]] std::vector<double> numbers_of(const Node* node, const Key& key) const;
   [[nodiscard]] Dual moving(const Node* node, double value) const;
+  [[nodiscard]] std::optional<Expression> own_formula(const Node& node) const;
+  [[nodiscard]] std::optional<std::array<Expression, 3>> own_formulas(const Node* node, const Key& key) const;
   [[nodiscard]] std::vector<double> default_numbers(const Key& key) const;
 
   ImageValues* values_;

@@ -27,26 +27,21 @@ MatterMotion::Centre rates_of(const MatterMotion::Map& map, const Vec3& x, doubl
 
 }  // namespace
 
-MatterMotion::MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball,
-                           double seconds_per_length)
-    : body_(std::move(body)),
-      body_shape_(body_shape),
-      ball_(std::move(ball)),
-      seconds_per_length_(seconds_per_length) {}
+MatterMotion::MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball, Time time)
+    : body_(std::move(body)), body_shape_(body_shape), ball_(std::move(ball)), time_(time) {}
 
-MatterMotion::MatterMotion(Map velocity, double seconds_per_length)
-    : velocity_(std::move(velocity)), seconds_per_length_(seconds_per_length) {}
+MatterMotion::MatterMotion(Map velocity, Time time) : velocity_(std::move(velocity)), time_(time) {}
 
 Vec3 MatterMotion::body_point(const Vec3& place, double time) const {
-  return body_ ? values_of(body_->point, place, seconds_per_length_ * time) : place;
+  return body_ ? values_of(body_->point, place, time_.seconds_per_length * time) : place;
 }
 
 Vec3 MatterMotion::velocity_of(const Vec3& point, double time) const {
-  return rates_of(body_->place, point, seconds_per_length_ * time, seconds_per_length_).velocity;
+  return rates_of(body_->place, point, time_.seconds_per_length * time, time_.seconds_per_length).velocity;
 }
 
 Vec3 MatterMotion::given_velocity(const Vec3& place, double time) const {
-  return values_of(*velocity_, place, seconds_per_length_ * time) * seconds_per_length_;
+  return values_of(*velocity_, place, time_.seconds_per_length * time) * time_.seconds_per_length;
 }
 
 Vec3 MatterMotion::velocity(const Vec3& place, double time) const {
@@ -63,7 +58,7 @@ double MatterMotion::own_time(const Vec3& place, double time, const Mat3& rest_f
 }
 
 MatterMotion::Centre MatterMotion::centre(double time) const {
-  return rates_of(ball_->path, Vec3{0.0}, seconds_per_length_ * time, seconds_per_length_);
+  return rates_of(ball_->path, Vec3{0.0}, time_.seconds_per_length * time, time_.seconds_per_length);
 }
 
 }  // namespace backlight

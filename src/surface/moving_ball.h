@@ -7,7 +7,7 @@
 
 namespace backlight {
 
-/// A stretch of the line outside which it is not in the motion's ball: docs/physics.md equation (39). For
+/// A stretch of the line outside which it is not in the motion's ball: docs/physics.md equation (28). For
 /// light and for lines of one moment alike.
 Stretch inside_ball(const MatterMotion& motion, const LocalLine& line);
 

@@ -1,4 +1,4 @@
-// What a clock has counted that went along with matter: docs/physics.md equation (36), by quadrature.
+// What a clock has counted that went along with matter: docs/physics.md equation (25), by quadrature.
 #pragma once
 
 #include <functional>

@@ -19,7 +19,7 @@ LocalPoint with_motion(const PlacedSurface& surface, const MatterMotion& motion,
     for (int r = 0; r < 3; ++r) rest_from_local[c][r] = surface.lanes.rest_from_local.column[c][r];
   point.moves = true;
   point.velocity = motion.velocity(point.position, time);
-  point.own_time = motion.own_time(point.position, time, rest_from_local);
+  if (motion.counts_time()) point.own_time = motion.own_time(point.position, time, rest_from_local);
   if (const Shape* body = motion.body_shape(); body != nullptr) {
     LocalPoint of_body{.position = motion.body_point(point.position, time)};
     texture_of_body(*body, of_body);

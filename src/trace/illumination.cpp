@@ -15,26 +15,34 @@ struct WayToLight {
 };
 
 // Of a lamp on a path, equation (40): h(t) = t_P - t - |x_P - c(t)| falls, since the lamp is slower than
-// light.
+// light: Newton's method within a bracket. Of a lamp that was as fast as light ever longer ago, as a rocket
+// was, there are points that its light has not reached: no root, and no light.
 WayToLight way_to_moving(const Event<Source>& event, const Light& light) {
+  constexpr int most_steps = 200;
+  constexpr double long_ago = 1e8;  // in ways from where it is now: farther than that h is rounding
   const MatterMotion& motion = *light.motion;
   double low = -std::numeric_limits<double>::infinity();
   double high = event.t;
   double time = event.t;
+  double farthest = 0.0;
   MatterMotion::Centre lamp;
   Vec3 way{0.0};
   double length = 0.0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < most_steps; ++i) {
     lamp = motion.centre(time);
     way = lamp.place - event.x;
     length = glm::length(way);
+    if (i == 0) farthest = long_ago * length;
     const double late = (event.t - time) - length;
     if (late == 0.0 || length == 0.0) break;
     (late > 0.0 ? low : high) = time;
     double next = time + late / (1.0 + glm::dot(way, lamp.velocity) / length);
-    if (!(next > low && next < high))
-      next = std::isfinite(low) ? 0.5 * low + 0.5 * high : time - 2.0 * std::abs(late);
+    const bool bracketed = std::isfinite(low);
+    if (!(next > low && next < high) ||
+        (!bracketed && event.t - next > 4.0 * (event.t - time) + 2.0 * length))
+      next = bracketed ? 0.5 * low + 0.5 * high : event.t - 4.0 * (event.t - time) - length;
     if (next == time) break;
+    if (!bracketed && event.t - next > farthest) return {{Vec3{0.0}, 0.0}, time};
     time = next;
   }
   return {{way, length}, time, boost_by<Source, Source>(lamp.velocity)};
@@ -79,7 +87,7 @@ WayToLight way_to_light(const Hub& hub, RayInFrames& rays, const SeenPoint& poin
 
 namespace {
 
-// Into the frame of the matter: equations (34) and (35).
+// Into the frame of the matter: equations (23) and (24).
 void go_along(const RestRayEvents& ray, bool light_delay, SeenPoint& point) {
   point.proper_time = point.surface.own_time;
   point.matter = boost_by<Rest, Rest>(point.surface.velocity);
@@ -134,6 +142,7 @@ std::optional<Arrival> arrival(const Hub& hub, RayInFrames& rays, const SeenPoin
                                const LightView& view) {
   const Light& light = *view.light;
   const WayToLight way = way_to_light(hub, rays, point, light);
+  if (!(way.direction.length > 0.0)) return std::nullopt;
   Arrival a;
   a.segment.direction = way.direction;
   a.emission_time = light.motion && light.flickers

@@ -1,6 +1,7 @@
 #include "backlight/trace/rest_colours.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "backlight/colour/upsampling.h"
 
@@ -73,6 +74,7 @@ bool RestColours::needs_spectra(const Scene& scene) {
 
 LinearRgb RestColours::under(std::size_t light, const LinearRgb& texel) const {
   const Lamp& lamp = lamps_[light];
+  if (std::isnan(texel.r + texel.g + texel.b)) return LinearRgb{texel.r + texel.g + texel.b};
   if (lamp.gentle.nm.empty()) return texel * lamp.rgb;
   const auto [shape, set] = wavelengths_->upsampled(texel, steepest_light_);
   const FilmQuadrature& rule = set == wavelengths_ ? lamp.gentle : lamp.steep;

@@ -1,8 +1,10 @@
 #include "shading_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "backlight/base/lane_power.h"
 #include "backlight/colour/film_integral.h"
 #include "backlight/colour/upsampling.h"
 
@@ -16,10 +18,24 @@ LinearRgb texture_reflectance(const Material& material, double u, double v) {
   return glm::clamp(material.texture->sample(u, v, TextureEdge::repeat), 0.0, 1.0);
 }
 
-double strength_at(const Light& light, double own_time, double c, std::vector<double>& variables) {
+LinearRgb point_reflectance(const Material& material, double u, double v, double t) {
+  if (material.texture) return texture_reflectance(material, u, v);
+  const int slot = material.checker ? checker_slot(*material.checker, u, v) : 0;
+  return reflectance_at(*material.in_time->reflectance, slot, t);
+}
+
+double specular_brdf(const Lobe& lobe, const Vec3& normal, const Vec3& to_camera, const Vec3& to_light,
+                     double cosine) {
+  if (lobe.specular <= 0.0) return 0.0;
+  const Vec3 mirrored = 2.0 * cosine * normal - to_light;
+  const double alpha = glm::dot(mirrored, to_camera);
+  if (alpha <= 0.0) return 0.0;
+  return lobe.specular * (lobe.shininess + 2.0) / (2.0 * std::numbers::pi) * power(alpha, lobe.shininess);
+}
+
+double strength_at(const Light& light, double own_time, double c) {
   if (!light.flickers) return light.strength;
-  variables[0] = own_time / c;
-  const double strength = light.strength_of_time.evaluate(variables) / light.strength;
+  const double strength = light.strength_of_time.evaluate(std::array{own_time / c}) / light.strength;
   return strength < 0.0 ? 0.0 : strength;  // NaN stays, and is counted
 }
 
@@ -56,22 +72,51 @@ LinearRgb shifted_colour(const SeenSpectrum& emission, Scratch& s) {
   return emission.set->film_under(spectrum, s.shift, nullptr, s.lamp.data(), *s.kernels);
 }
 
-LinearRgb emitted_colour(const ShadingContext& context, int index, Scratch& s) {
+LinearRgb shifted_rgb(const ShadingContext& context, const LinearRgb& rgb, Scratch& s) {
+  // D65 times a reflectance of half the largest component, as for any coloured light.
+  const double scale = 2.0 * std::max({rgb.r, rgb.g, rgb.b});
+  if (!(scale > 0.0)) return LinearRgb{0.0};
+  if (s.shift == 1.0) return rgb;  // which the spectrum would be matched to
+  const auto [shape, set] = context.wavelengths->upsampled(rgb / scale, 0.0);
+  s.texel = Spectrum::sigmoid_reflectance(shape);
+  s.texel.evaluate(shifted_wavelengths(*set, s), set->size(), s.reflectance.data(), *s.kernels);
+  const WavelengthSet::Sampled sampled{s.reflectance.data(), &s.texel, s.shift};
+  return scale * set->film_under(Spectrum::d65(), s.shift, &sampled, s.lamp.data(), *s.kernels);
+}
+
+LinearRgb emitted_colour(const ShadingContext& context, int index, double t, Scratch& s) {
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
-  return material.emission ? shifted_colour(context.spectra->emission(index), s) : LinearRgb{0.0};
+  if (!material.in_time || !material.in_time->emission)
+    return material.emission ? shifted_colour(context.spectra->emission(index), s) : LinearRgb{0.0};
+  const EmissionNow now = emission_at(*material.in_time->emission, t);
+  if (now.body) return shifted_colour({&*now.body, context.wavelengths}, s);
+  if (!now.colour) return now.strength * shifted_colour(context.spectra->emission(index), s);
+  const double sum = now.colour->r + now.colour->g + now.colour->b;
+  return std::isfinite(sum) ? shifted_rgb(context, *now.colour, s) : LinearRgb{sum};
 }
 
 namespace {
 
-SeenSpectrum seen_reflectance(const ShadingContext& context, int index, double u, double v, Scratch& s) {
+SeenSpectrum seen_reflectance(const ShadingContext& context, int index, double u, double v, double t,
+                              Scratch& s) {
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
-  if (!material.texture) {
+  if (!reflects_by_point(material)) {
     const int slot = material.checker ? checker_slot(*material.checker, u, v) : 0;
     return context.spectra->reflectance(index, slot);
   }
-  const auto [shape, set] =
-      context.wavelengths->upsampled(texture_reflectance(material, u, v), context.spectra->steepest_light());
-  s.texel = Spectrum::sigmoid_reflectance(shape, material.uv, material.ir);
+  const LinearRgb rgb = point_reflectance(material, u, v, t);
+  std::optional<double> uv = material.uv, ir = material.ir;
+  if (material.in_time && material.in_time->reflectance) {
+    uv = level_at(material.in_time->reflectance->uv, t);
+    ir = level_at(material.in_time->reflectance->ir, t);
+  }
+  const double sum = rgb.r + rgb.g + rgb.b + uv.value_or(0.0) + ir.value_or(0.0);
+  if (std::isnan(sum)) {
+    s.texel = Spectrum::constant(sum);
+    return {&s.texel, context.wavelengths};
+  }
+  const auto [shape, set] = context.wavelengths->upsampled(rgb, context.spectra->steepest_light());
+  s.texel = Spectrum::sigmoid_reflectance(shape, uv, ir);
   return {&s.texel, set};
 }
 
@@ -86,8 +131,9 @@ void sample(const SeenSpectrum& reflectance, Scratch& s) {
 
 }  // namespace
 
-Reflectance fill_reflectance(const ShadingContext& context, int index, double u, double v, Scratch& s) {
-  Reflectance reflectance{seen_reflectance(context, index, u, v, s), {}};
+Reflectance fill_reflectance(const ShadingContext& context, int index, double u, double v, double t,
+                             Scratch& s) {
+  Reflectance reflectance{seen_reflectance(context, index, u, v, t, s), {}};
   const Spectrum& spectrum = *reflectance.seen.spectrum;
   if (spectrum.is_grey()) {
     reflectance.grey = spectrum.at(visible_begin_nm);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "backlight/scene/material_in_time.h"
 #include "backlight/trace/shading.h"
 
 namespace backlight {
@@ -14,8 +15,21 @@ int checker_slot(const Checker& checker, double u, double v);
 
 LinearRgb texture_reflectance(const Material& material, double u, double v);
 
+/// Whether what the material reflects is another at each point: a texture's, or one that changes in time.
+inline bool reflects_by_point(const Material& material) {
+  return material.texture != nullptr || (material.in_time && material.in_time->reflectance);
+}
+
+/// That of a point, at the matter's own time `t` in scene seconds; components in [0, 1], or NaN.
+LinearRgb point_reflectance(const Material& material, double u, double v, double t);
+
+/// Phong's lobe, normalised so that `specular` is the share of the light that it reflects at normal incidence
+/// (Lafortune & Willems 1994): k (n+2)/2π cosⁿα.
+double specular_brdf(const Lobe& lobe, const Vec3& normal, const Vec3& to_camera, const Vec3& to_light,
+                     double cosine);
+
 /// Strength of a lamp at its own time `own_time` (times c); a formula below zero means that the lamp is off.
-double strength_at(const Light& light, double own_time, double c, std::vector<double>& variables);
+double strength_at(const Light& light, double own_time, double c);
 
 // For shifted colours, docs/physics.md equation (13a).
 
@@ -31,8 +45,11 @@ const double* shifted_wavelengths(const WavelengthSet& set, Scratch& s);
 /// The film colour of an emission seen so.
 LinearRgb shifted_colour(const SeenSpectrum& emission, Scratch& s);
 
-/// The film colour of a surface's own emission; `material`: its index.
-LinearRgb emitted_colour(const ShadingContext& context, int material, Scratch& s);
+/// The film colour of light that is D65 times a reflectance, of the colour `rgb` >= 0 at rest, seen so.
+LinearRgb shifted_rgb(const ShadingContext& context, const LinearRgb& rgb, Scratch& s);
+
+/// The film colour of a surface's own emission at its own time `t` in scene seconds; `material`: its index.
+LinearRgb emitted_colour(const ShadingContext& context, int material, double t, Scratch& s);
 
 /// What a point reflects.
 struct Reflectance {
@@ -43,8 +60,10 @@ struct Reflectance {
   [[nodiscard]] bool is_looked_up() const { return seen.number != 0; }
 };
 
-/// That of a point. Of a texture it stands in s.texel, and sampled in s.reflectance.
-Reflectance fill_reflectance(const ShadingContext& context, int material, double u, double v, Scratch& s);
+/// That of a point at its own time `t` in scene seconds. Where it is of this point alone it stands in
+/// s.texel, and sampled in s.reflectance.
+Reflectance fill_reflectance(const ShadingContext& context, int material, double u, double v, double t,
+                             Scratch& s);
 
 /// Film colours of a lamp of unit strength.
 struct LampColours {

@@ -119,7 +119,7 @@ bool SheetShader::resolve() {
   return std::all_of(p.material, p.material + p.count, [&](int its) { return its == p.material[0]; });
 }
 
-void SheetShader::fill_strength(const Light& light, std::size_t index) {
+void SheetShader::fill_strength(const Light& light) {
   PointSheet& p = work_.points;
   if (!light.flickers) {
     std::fill_n(p.strength, p.padded, light.strength);
@@ -130,7 +130,7 @@ void SheetShader::fill_strength(const Light& light, std::size_t index) {
   for (int i = 0; i < p.padded; ++i) {
     p.strength[i] = 0.0;
     if (!(p.lit[i] > 0.0)) continue;
-    p.strength[i] = strength_at(light, time[i], tracer_.scene().c, scratch_.light_variables[index]);
+    p.strength[i] = strength_at(light, time[i], tracer_.scene().c);
     if (p.strength[i] == 0.0 && light.kind != LightKind::ambient) p.lit[i] = 0.0;
   }
 }
@@ -139,7 +139,8 @@ void SheetShader::fill_diffuse(std::size_t light, int index, LaneReflection& ref
   PointSheet& p = work_.points;
   const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
   const RestColours& colours = tracer_.rest_colours();
-  if (!material.texture && !material.checker) {
+  const bool by_point = reflects_by_point(material);
+  if (!by_point && !material.checker) {
     const LinearRgb& rgb = colours.under(light, index, 0);
     reflection.same_diffuse = true;
     for (int k = 0; k < 3; ++k) reflection.diffuse[k] = rgb[k];
@@ -147,8 +148,8 @@ void SheetShader::fill_diffuse(std::size_t light, int index, LaneReflection& ref
   }
   for (int i = 0; i < p.count; ++i) {
     const LinearRgb rgb =
-        material.texture
-            ? colours.under(light, texture_reflectance(material, p.points.u[i], p.points.v[i]))
+        by_point
+            ? colours.under(light, point_reflectance(material, p.points.u[i], p.points.v[i], own_time(i)))
             : colours.under(light, index, checker_slot(*material.checker, p.points.u[i], p.points.v[i]));
     put(rgb, p.diffuse, i);
   }
@@ -160,7 +161,7 @@ void SheetShader::ambient_arrives(std::size_t index) {
   PointSheet& p = work_.points;
   std::fill_n(p.lit, p.count, 1.0);
   std::fill(p.lit + p.count, p.lit + p.padded, 0.0);
-  fill_strength(tracer_.scene().lights[index], index);
+  fill_strength(tracer_.scene().lights[index]);
   for (int i = 0; i < p.padded; ++i) {
     p.irradiance[i] = pi * p.strength[i];
     p.specular[i] = 0.0;
@@ -179,7 +180,7 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
   }
   std::uint64_t lit = sheets_.kernels().arrive(lane_lamp(index, entry_->frame), p);
   if (light.flickers || light.strength == 0.0) {
-    fill_strength(light, index);
+    fill_strength(light);
     lit = p.lit_bits();
   }
   if (lit == 0) return false;
@@ -196,14 +197,30 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
       material.specular <= 0.0 ? 0.0 : material.specular * (material.shininess + 2.0) / (2.0 * pi);
   reflection.shininess = material.shininess;
   sheets_.kernels().reflect(reflection, p);
+  if (material.in_time && material.in_time->lobe) fill_lobes(material);
   return true;
+}
+
+// Of a lobe that is another at each point's own time.
+void SheetShader::fill_lobes(const Material& material) {
+  PointSheet& p = work_.points;
+  const auto at = [](const auto& rows, int i) { return Vec3{rows[0][i], rows[1][i], rows[2][i]}; };
+  for (int i = 0; i < p.count; ++i) {
+    if (!(p.lit[i] > 0.0)) continue;
+    p.specular[i] = specular_brdf(lobe_at(material, own_time(i)), at(p.points.normal, i), at(p.to_camera, i),
+                                  at(p.to_light, i), p.cosine[i]);
+  }
 }
 
 void SheetShader::light_rgb(const Material& material, int material_index, const Effects& effects) {
   PointSheet& p = work_.points;
   const LinearRgb own = material.emission ? material.emission->rgb : LinearRgb{0.0};
   const double own_rgb[3] = {own.r, own.g, own.b};
-  bool first = true;
+  const bool own_by_point = material.in_time && material.in_time->emission;
+  for (int i = 0; i < p.padded && own_by_point; ++i) {
+    put(i < p.count ? own_radiance(material, own_time(i)) : LinearRgb{0.0}, p.rgb, i);
+  }
+  bool first = !own_by_point;
   const std::vector<Light>& lights = tracer_.scene().lights;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     LaneReflection reflection;

@@ -104,8 +104,11 @@ class SheetShader {
 
  private:
   [[nodiscard]] LaneLamp lane_lamp(std::size_t light, int frame) const;
-  void fill_strength(const Light& light, std::size_t index);
+  void fill_strength(const Light& light);
   void fill_diffuse(std::size_t light, int material, LaneReflection& reflection);
+  void fill_lobes(const Material& material);
+  /// Of the matter at a point when its light left, in scene seconds.
+  [[nodiscard]] double own_time(int lane) const { return work_.points.proper_time[lane] / tracer_.scene().c; }
   // Shadows (tile_shadows.cpp):
   const LampTable& occluders_of_tile(std::size_t light);
   void list_for_tile(std::size_t light, LampTable& list) const;

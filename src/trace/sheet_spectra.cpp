@@ -19,18 +19,21 @@ class ShiftedColours {
         lamps_(work.lamp_light),
         s_(scratch) {}
 
-  void begin(DopplerFactor<Camera, Rest> doppler, double u, double v) {
+  // `t`: the matter's own time, in scene seconds.
+  void begin(DopplerFactor<Camera, Rest> doppler, double u, double v, double t) {
     const int slot = material_.checker ? checker_slot(*material_.checker, u, v) : 0;
-    if (began_ && doppler.value == doppler_.value && slot == slot_ && !material_.texture) return;
+    const bool by_point = material_.texture || material_.in_time;
+    if (began_ && doppler.value == doppler_.value && slot == slot_ && !by_point) return;
     began_ = true;
     doppler_ = doppler;
     shift_by(doppler, s_);
     slot_ = slot;
     u_ = u;
     v_ = v;
+    t_ = t;
     ready_ = false;
     for (SheetScratch::Lamp& lamp : lamps_) lamp.known = false;
-    emitted_ = emitted_colour(context_, index_, s_);
+    emitted_ = emitted_colour(context_, index_, t, s_);
   }
 
   [[nodiscard]] const LinearRgb& emitted() const { return emitted_; }
@@ -39,11 +42,11 @@ class ShiftedColours {
     SheetScratch::Lamp& lamp = lamps_[light];
     if (lamp.known && lamp.known_doppler == doppler.value) return lamp.colours;
     if (!ready_) {
-      reflectance_ = fill_reflectance(context_, index_, u_, v_, s_);
+      reflectance_ = fill_reflectance(context_, index_, u_, v_, t_, s_);
       ready_ = true;
     }
     lamp.colours =
-        lamp_colours(context_.spectra->light(light), doppler, material_.specular > 0.0, reflectance_, s_);
+        lamp_colours(context_.spectra->light(light), doppler, has_lobe(material_), reflectance_, s_);
     lamp.known = true;
     lamp.known_doppler = doppler.value;
     return lamp.colours;
@@ -60,6 +63,7 @@ class ShiftedColours {
   int slot_ = 0;
   double u_ = 0.0;
   double v_ = 0.0;
+  double t_ = 0.0;
   LinearRgb emitted_{0.0};
   bool ready_ = false;  // wavelengths and reflectance are those of the point
   Reflectance reflectance_;
@@ -87,7 +91,7 @@ void SheetShader::light_spectra(const Material& material, int material_index, co
   ShiftedColours colours(context, material_index, work_, scratch_);
   for (int lane = 0; lane < p.count; ++lane) {
     const DopplerFactor<Camera, Rest> doppler{p.doppler[lane]};
-    colours.begin(doppler, p.points.u[lane], p.points.v[lane]);
+    colours.begin(doppler, p.points.u[lane], p.points.v[lane], own_time(lane));
     LinearRgb sum = colours.emitted();
     for (std::size_t i = 0; i < lights.size(); ++i) {
       SheetScratch::Lamp& lamp = work_.lamp_light[i];

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "backlight/colour/upsampling.h"
 #include "shading_steps.h"
 
 namespace backlight {
@@ -61,16 +60,7 @@ LinearRgb sky_shifted(const ShadingContext& context, const RestRayEvents& ray, S
   const Sky& sky = context.scene->sky;
   if (!sky.emits) return LinearRgb{0.0};
   if (!sky.texture) return shifted_colour(context.spectra->sky(), s);
-  // D65 times a reflectance of half the texel's largest component, as for any coloured light.
-  const LinearRgb rgb = glm::max(texture_at(sky, ray.direction), 0.0);
-  const double scale = 2.0 * std::max({rgb.r, rgb.g, rgb.b});
-  if (!(scale > 0.0)) return LinearRgb{0.0};
-  if (s.shift == 1.0) return rgb;  // which the spectrum would be matched to
-  const auto [shape, set] = context.wavelengths->upsampled(rgb / scale, 0.0);
-  s.texel = Spectrum::sigmoid_reflectance(shape);
-  s.texel.evaluate(shifted_wavelengths(*set, s), set->size(), s.reflectance.data(), *s.kernels);
-  const WavelengthSet::Sampled sampled{s.reflectance.data(), &s.texel, s.shift};
-  return scale * set->film_under(Spectrum::d65(), s.shift, &sampled, s.lamp.data(), *s.kernels);
+  return shifted_rgb(context, glm::max(texture_at(sky, ray.direction), 0.0), s);
 }
 
 std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const WavelengthSet& wavelengths) {

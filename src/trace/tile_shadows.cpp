@@ -84,7 +84,7 @@ void SheetShader::collect() {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (!in_packets(i)) continue;
     sheets_.kernels().arrive(lane_lamp(i, entry_->frame), work_.points);
-    fill_strength(lights[i], i);
+    fill_strength(lights[i]);
     work_.packets[i].add(work_.points, sheet_, is_alone(own) ? own : -1);
   }
 }

@@ -50,7 +50,7 @@ Tracer::Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces, S
 }
 
 Scratch Tracer::make_scratch(InstructionSet set) const {
-  return {hub_, *scene_, spectral_ ? static_cast<std::size_t>(wavelengths_->most()) : 0, set};
+  return {hub_, spectral_ ? static_cast<std::size_t>(wavelengths_->most()) : 0, set};
 }
 
 RayLight Tracer::light(const CameraRay& ray, const Effects& effects, Scratch& scratch) const {

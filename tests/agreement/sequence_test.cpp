@@ -20,7 +20,7 @@ going = "still + 0.1*t"
 [frame.train]
 beta = [0.3, 0, 0.1]
 [frame.tram]
-beta = ["0.3*min(t, 1)", 0, "0.1*min(t, 1)"]
+beta = ["0.3*min(image_time, 1)", 0, "0.1*min(image_time, 1)"]
 [camera]
 position = ["0.2*t", 1, -6]
 direction = [0, 0, 1]
@@ -60,7 +60,7 @@ std::vector<Case> cases() {
       {"frames move, and fall together", still + sphere_at(2, 1, "frame = \"tram\""), 5, 0},
       {"one turns", still + torus("position = [2, 0, 0]\nrotate = [\"90*t\", 0, 0]"), 2, 3},
       {"by a parameter", still + torus("position = [\"going\", 2, 0]\nframe = \"train\""), 3, 2},
-      {"one gets faster", still + sphere_at(2, 0, "beta = [0, \"0.3*t\", 0]"), 4, 1},
+      {"one gets faster", still + sphere_at(2, 0, "beta = [0, \"0.3*image_time\", 0]"), 4, 1},
       {"more copies",
        still + sphere_at(2, -1,
                          "frame = \"train\"\nrepeat = { count = [\"1 + frame\", 1, 1], step = [0.2, 0, 0] }"),
@@ -73,11 +73,13 @@ std::vector<Case> cases() {
        still + "[[object]]\nshape = \"implicit\"\nf = \"x^2 + y^2 + z^2 - 0.2 - 0.01*frame\"\n"
                "bounds = [[-1, -1, -1], [1, 1, 1]]\nposition = [2, 0, 0]\n",
        2, 3},
-      {"a material within an object", still + sphere_at(2, 1, "material = { color = [\"t\", 0.5, 0.5] }"), 5,
-       0, false},
+      {"a material within an object",
+       still + sphere_at(2, 1, "material = { color = [\"image_time\", 0.5, 0.5] }"), 5, 0, false},
+      {"a material by its own time",
+       still + sphere_at(2, 1, "material = { color = [\"t\", 0.5, 0.5], emission = \"sin(going)\" }"), 5, 0},
       {"a solid",
        still + "[[object]]\nshape = \"difference\"\nposition = [2, 0, 0]\n[[object.part]]\nshape = \"box\"\n"
-               "size = [1, 1, 1]\n[[object.part]]\nshape = \"sphere\"\nradius = \"0.5 + 0.1*t\"\n"
+               "size = [1, 1, 1]\n[[object.part]]\nshape = \"sphere\"\nradius = \"0.5 + 0.1*image_time\"\n"
                "material = { color = [0.1, 0.9, 0.2] }\n",
        2, 3},
   };

@@ -328,6 +328,71 @@ stars = { count = 500, seed = 4 }
   expect_the_law(scene_of(all), fill);
 }
 
+// Materials by their own time, at rest, in motion, and of a solid's members.
+TEST(Sheets, AreTheLawForMaterialsInTime) {
+  const std::string more = R"toml(
+[[light]]
+position = [3, 4, -5]
+beta = [0.2, 0.3, 0]
+intensity = 100
+temperature = 3000
+[[light]]
+type = "distant"
+direction = [0.3, -1, 0.5]
+irradiance = "0.7 + 0.2*sin(t)"
+[[light]]
+type = "ambient"
+radiance = 0.05
+[[object]]
+shape = "torus"
+major = 1
+minor = 0.3
+rotate = [50, 20, 0]
+position = [1, 1, -1]
+beta = [0.5, 0.1, 0.2]
+material = { color = ["0.5 + 0.6*sin(t)", 0.3, "0.5 + 0.6*cos(2*t)"], specular = "0.5*sin(9*t)", uv = "sin(t)" }
+[[object]]
+shape = "box"
+size = [1, 2, 0.5]
+rotate = [20, 30, 10]
+position = [-2, 1, 0]
+beta = [0.5, 0.1, 0.2]
+material = { emission = "0.2*sin(9*t)", color = [0.1, 0.2, 0.3], specular = 0.2, shininess = "20 + 10*sin(t)" }
+[[object]]
+shape = "sphere"
+radius = 0.8
+position = [2, 0, 2]
+material = { emission = 0.3, temperature = "3000*sin(5*t)", color = [0.4, 0.2, 0.1] }
+[[object]]
+shape = "sphere"
+radius = 0.8
+scale = [1, 0.5, 1.5]
+position = [-3, 0, -2]
+beta = [0, 0.4, 0.4]
+material = { checker = { colors = [["sin(t)", 0.8, 0.1], [0.1, 0.1, 0.9]], size = 0.1 }, emission = 0.1, emission_color = [1, "cos(t)", 0] }
+[[object]]
+shape = "union"
+position = [0, -1, -2]
+beta = [0.3, 0.1, 0]
+[[object.part]]
+shape = "sphere"
+radius = 0.6
+material = { color = [0.9, 0.2, 0.2], emission = "sin(20*t)" }
+[[object.part]]
+shape = "box"
+size = [0.8, 0.8, 0.8]
+position = [0.5, 0, 0]
+material = { color = [0.9, 0.2, 0.2] }
+[[object]]
+shape = "plane"
+position = [0, -4, 0]
+material = { color = [0.5, 0.5, "0.3 + 0.3*sin(t)"] }
+)toml";
+  const Field all{.spheres = 30, .gamma = 2.0, .width = 60, .height = 40, .more = more};
+  expect_the_law(scene_of(all));
+  expect_the_law(scene_of(all), three_colours);
+}
+
 // Solids take one ray at a time, after the cones.
 TEST(Sheets, AreTheLawForManySurfacesOfAFrame) {
   std::string more;

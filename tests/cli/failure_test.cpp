@@ -144,10 +144,10 @@ TEST_F(FailureTest, UnknownCameraIsAWrongScene) {
 
 TEST_F(FailureTest, FrameThatCannotBeLeavesTheOthers) {
   // At frame 3, t = 2 and the object would be as fast as light.
-  write_scene(
-      "scene.toml",
-      "[animation]\nfps = 1\nframes = [1, 4]\n"
-      "[[object]]\nshape = \"box\"\nsize = [1, 1, 1]\nvelocity = [\"0.5*t - 2*max(0, t - 2)\", 0, 0]\n");
+  write_scene("scene.toml",
+              "[animation]\nfps = 1\nframes = [1, 4]\n"
+              "[[object]]\nshape = \"box\"\nsize = [1, 1, 1]\nvelocity = [\"0.5*image_time - 2*max(0, "
+              "image_time - 2)\", 0, 0]\n");
   const Outcome outcome = run({"scene.toml"});
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_EQ(files(), (Files{"scene.0001.exr", "scene.0002.exr", "scene.0004.exr", "scene.toml"}));

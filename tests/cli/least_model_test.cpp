@@ -112,7 +112,7 @@ TEST_F(LeastModel, CheckTellsWhatImagesShare) {
   EXPECT_NE(fixed.find("  reuse      from image to image 2 of 2 surfaces, "), std::string::npos) << fixed;
   const std::string growing =
       check(film + frames + sphere +
-            "[[object]]\nshape = \"sphere\"\nradius = \"1 + t\"\nbeta = [0.5, 0, 0]\n" + lamp);
+            "[[object]]\nshape = \"sphere\"\nradius = \"1 + image_time\"\nbeta = [0.5, 0, 0]\n" + lamp);
   EXPECT_NE(growing.find("  reuse      from image to image 1 of 2 surfaces, "), std::string::npos) << growing;
   EXPECT_EQ(check(film + sphere + lamp).find("reuse"), std::string::npos);
 }

@@ -197,7 +197,7 @@ cmp "$work"/plain/still*.exr "$work"/parts/still*.exr || fail "the image put tog
 begin "a task that fails"
 mkdir "$work/fails"
 cp "$scene" "$work/fails/"
-sed -i 's/^velocity = .*/velocity = ["0.5 + 0.5*t", 0, 0]/' "$work/fails/moving.toml"
+sed -i 's/^velocity = .*/velocity = ["0.5 + 0.5*image_time", 0, 0]/' "$work/fails/moving.toml"
 read -r array gather < <("$submit" --chunk 8 --video "$work/fails/flight.mp4" "$work/fails/moving.toml" -f 1-16 -s 1 -r 16x9 -o "$work/fails/flight.####.exr")
 until_true 60 "the array job" queue_is_empty "$array"
 until_true 30 "the end of the gather job" queue_is_empty "$gather"

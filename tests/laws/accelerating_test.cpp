@@ -27,7 +27,8 @@ std::string cabin() {
   return "[[object]]\nname = \"cabin\"\nshape = \"difference\"\nposition = " + list(start) +
          "\nrotate = [0, 0, 30]\n" + rocket(acceleration) +
          "material = { color = [0.7, 0.5, 0.3] }\n"
-         "[[object.part]]\nshape = \"box\"\nsize = [2, 2, 2.4]\n[[object.part]]\nshape = \"box\"\nsize = [1.8, 1.8, "
+         "[[object.part]]\nshape = \"box\"\nsize = [2, 2, 2.4]\n[[object.part]]\nshape = \"box\"\nsize = "
+         "[1.8, 1.8, "
          "2.2]\n[[object.part]]\nshape = \"sphere\"\nradius = 0.5\nposition = [1, 0, 0.3]\n"
          "[[light]]\nposition = " +
          list(start + lamp) + "\nintensity = 2\n" + rocket(1.0 / xi(lamp));
@@ -59,7 +60,8 @@ TEST(Accelerating, AboardARocketTheDopplerFactorIsTheRatioOfTheDistancesFromTheH
       const double time = r.at("emissionTime.T", x, y);
       const double doppler = std::sqrt(ahead * ahead - time * time) / xi(turned(eye));
       EXPECT_NEAR(r.at("doppler.D", x, y), doppler, 3e-6) << x << ' ' << y;
-      EXPECT_NEAR(r.at("properTime.T", x, y), std::sqrt(ahead * ahead - time * time) * std::atanh(time / ahead), 3e-6);
+      EXPECT_NEAR(r.at("properTime.T", x, y),
+                  std::sqrt(ahead * ahead - time * time) * std::atanh(time / ahead), 3e-6);
       least = std::min(least, doppler);
       most = std::max(most, doppler);
     }
@@ -89,8 +91,8 @@ TEST(Accelerating, AboardARocketThePictureNeverChanges) {
 TEST(Accelerating, ACameraAboardIsOneWithTheRocketOfItsPlace) {
   const Vec3 eye{0.2, -0.1, -0.5};
   const double ahead = xi(turned(eye));
-  const std::string own = "[camera]\nposition = " + list(start + turned(eye)) + "\ndirection = " +
-                          list(turned({0, 0, 1})) + "\nup = " + list(turned({0, 1, 0})) +
+  const std::string own = "[camera]\nposition = " + list(start + turned(eye)) +
+                          "\ndirection = " + list(turned({0, 0, 1})) + "\nup = " + list(turned({0, 1, 0})) +
                           "\nprojection = \"equirectangular\"\n" + rocket(1.0 / ahead);
   for (const double time : {-1.5, 0.0, 2.5}) {
     RenderChoices at;
@@ -108,11 +110,12 @@ TEST(Accelerating, ACameraAboardIsOneWithTheRocketOfItsPlace) {
 
 // From outside: v = t/(ξ cosh) along the thrust, at each point's own.
 TEST(Accelerating, ARocketSeenFromTheGroundHasTheDopplerFactorsOfItsMatter) {
-  for (const double time : {2.0, 4.5, 9.0}) {
+  for (const double time : {5.0, 8.0, 14.0}) {
     RenderChoices at;
     at.time = time;
-    const Rendering r = render_text(film(64, 48) + "[camera]\nposition = [0, 0.5, -3]\nlook_at = [0.6, 1.2, 2]\nfov = "
-                                                   "50\n" +
+    const Rendering r = render_text(film(64, 48) +
+                                        "[camera]\nposition = [0, 0.5, -3]\nlook_at = [0.6, 1.2, 2]\nfov = "
+                                        "50\n" +
                                         cabin(),
                                     at);
     int seen = 0;
@@ -136,11 +139,13 @@ TEST(Accelerating, ARocketSeenFromTheGroundHasTheDopplerFactorsOfItsMatter) {
 TEST(Accelerating, ARocketOfAMovingFrameIsOneAtRestSeenByACameraOfThatFrame) {
   const std::string in_frame = "frame = \"fleet\"\n";
   std::string moving = cabin();
-  for (const std::string key : {"[[object]]\n", "[[light]]\n"}) moving.insert(moving.find(key) + key.size(), in_frame);
-  const std::string camera = "[camera]\nposition = [0, 0.5, -3]\nlook_at = [0.6, 1.2, 2]\nfov = 50\ntime = 3\n";
+  for (const std::string key : {"[[object]]\n", "[[light]]\n"})
+    moving.insert(moving.find(key) + key.size(), in_frame);
+  const std::string camera =
+      "[camera]\nposition = [0, 0.5, -3]\nlook_at = [0.6, 1.2, 2]\nfov = 50\ntime = 3\n";
   const Match m = match(render_text(film(64, 48) + camera + cabin()),
-                        render_text(film(64, 48) + "[frame.fleet]\ncelerity = 20\nalong = [1, 0.5, -2]\n" + camera +
-                                    in_frame + moving));
+                        render_text(film(64, 48) + "[frame.fleet]\ncelerity = 20\nalong = [1, 0.5, -2]\n" +
+                                    camera + in_frame + moving));
   EXPECT_GT(m.seen, 100);
   EXPECT_EQ(m.other_id, 0);
   EXPECT_LT(m.distance.error, 1e-6);
@@ -152,10 +157,11 @@ TEST(Accelerating, ARocketOfAMovingFrameIsOneAtRestSeenByACameraOfThatFrame) {
 }
 
 TEST(Accelerating, SlightlyIsTheBodyAtRest) {
-  const std::string rest = film(64, 48) +
-                           "[camera]\nfov = 60\nbeta = [0.2, 0.1, 0.1]\n[[light]]\nposition = [3, 5, 0]\nintensity = 50\n"
-                           "[[object]]\nshape = \"box\"\nsize = [1.5, 1, 0.8]\nposition = [0, 0, 4]\nrotate = [10, 20, "
-                           "30]\n";
+  const std::string rest =
+      film(64, 48) +
+      "[camera]\nfov = 60\nbeta = [0.2, 0.1, 0.1]\n[[light]]\nposition = [3, 5, 0]\nintensity = 50\n"
+      "[[object]]\nshape = \"box\"\nsize = [1.5, 1, 0.8]\nposition = [0, 0, 4]\nrotate = [10, 20, "
+      "30]\n";
   const Match m = match(render_text(rest), render_text(rest + rocket(1e-9)));
   EXPECT_GT(m.seen, 100);
   EXPECT_EQ(m.other_id, 0);
@@ -168,9 +174,10 @@ TEST(Accelerating, SlightlyIsTheBodyAtRest) {
 // A fall of small speed: half the acceleration times the time squared, and the Doppler factor 1 - v·d.
 TEST(Accelerating, SlowlyIsGalileosFall) {
   const double g = 1e-4;
-  const Rendering r = render_text(
-      film(9, 9) + "[camera]\ntime = 7\nfov = 1\n[[object]]\nshape = \"disk\"\nradius = 1\nrotate = [90, 0, 0]\nposition = "
-                   "[0, 0, 2]\nrocket = { acceleration = 1e-4, along = [0, 0, 1] }\n");
+  const Rendering r = render_text(film(9, 9) +
+                                  "[camera]\ntime = 7\nfov = 1\n[[object]]\nshape = \"disk\"\nradius = "
+                                  "1\nrotate = [90, 0, 0]\nposition = "
+                                  "[0, 0, 2]\nrocket = { acceleration = 1e-4, along = [0, 0, 1] }\n");
   const double t = 5.0;  // of emission, but for g
   EXPECT_NEAR(r.at("Z", 4, 4), 2.0 + 0.5 * g * t * t, 1e-6);
   EXPECT_NEAR(r.at("doppler.D", 4, 4), 1.0 - g * t, 1e-6);

@@ -1,5 +1,6 @@
-// Every number of a scene may move with t: the table of keys is gone through, and for each number a formula
-// of t gives, bit for bit, the picture of the number written out.
+// Every number of a scene may be another for each image: the table of keys is gone through, and for each
+// number a formula of image_time gives, bit for bit, the picture of the number written out.
+// Longer than 400 lines: it has a row for each number.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,8 +8,11 @@
 #include <cstring>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "backlight/scene/keys.h"
+#include "backlight/scene/reader.h"
 #include "rendering.h"
 
 namespace backlight::test {
@@ -277,7 +281,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-// Those that cannot, or mean another time by t; docs/scene-reference.md says so of each.
+// Those that cannot, or that other tests are about; docs/scene-reference.md says so of each.
 const std::map<std::string, std::string>& exceptions() {
   static const std::map<std::string, std::string> all{
       {"animation.fps", "t is made of it"},
@@ -291,7 +295,8 @@ const std::map<std::string, std::string>& exceptions() {
 }
 
 // Each number of `first` that `second` has otherwise becomes a formula that goes from one to the other.
-std::string moving(const std::string& first, const std::string& second) {
+std::string moving(const std::string& first, const std::string& second,
+                   const std::string& clock = "image_time") {
   const auto is_number = [](char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
   };
@@ -310,7 +315,7 @@ std::string moving(const std::string& first, const std::string& second) {
     };
     const std::string a = take(first, i);
     const std::string b = take(second, j);
-    text += a == b ? a : "\"" + a + " + (" + b + " - (" + a + "))*(t - 1)\"";
+    text += a == b ? a : "\"" + a + " + (" + b + " - (" + a + "))*(" + clock + " - 1)\"";
   }
   return text;
 }
@@ -365,6 +370,33 @@ TEST(EveryNumber, MovesWithTime) {
   }
 }
 
+// What has neither a clock of its own nor is about the picture is told of, unless it is written so.
+TEST(EveryNumber, WithoutAClockOfItsOwnIsToldOf) {
+  const auto warned = [](const Case& one, const std::string& clock) {
+    std::vector<std::string> overrides;
+    for (const std::string& text : one.overrides)
+      overrides.push_back(put(text, moving(one.first, one.second, clock)));
+    const std::string text = base_for(one.key) + put(one.text, moving(one.first, one.second, clock));
+    const ReadResult result = read_scene_text(text, "scene.toml", overrides, {});
+    return std::ranges::any_of(result.diagnostics.all(), [](const Diagnostic& d) {
+      return d.message.find("is evaluated anew for each image") != std::string::npos;
+    });
+  };
+  int told = 0;
+  for (const Case& one : cases()) {
+    SCOPED_TRACE(one.key);
+    const std::size_t dot = one.key.rfind('.');
+    const KeyTable* table = find_table(one.key.substr(0, dot));
+    ASSERT_NE(table, nullptr);
+    const Key* key = find_key(*table, one.key.substr(dot + 1));
+    ASSERT_NE(key, nullptr);
+    EXPECT_FALSE(warned(one, "image_time"));
+    EXPECT_EQ(warned(one, "t"), key->clock == Clock::anew);
+    told += key->clock == Clock::anew ? 1 : 0;
+  }
+  EXPECT_GT(told, 20);
+}
+
 // A new key without a case fails here.
 TEST(EveryNumber, IsAmongTheCases) {
   std::set<std::string> covered;
@@ -389,7 +421,7 @@ TEST(EveryNumber, OfTheAnimationItselfSaysWhyItCannotMove) {
       render_text(base + plain_red + "[animation]\n", {.overrides = {text}});
       ADD_FAILURE() << text;
     } catch (const std::exception& error) {
-      EXPECT_NE(std::string(error.what()).find("may not depend on t or frame"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find("may not depend on t, frame or image_time"), std::string::npos)
           << error.what();
     }
   }

@@ -103,13 +103,14 @@ class Scene:
         return vector(values, self.variables)
 
     def _variables(self, image):
-        """`t`, `frame` and the parameters, which may refer to one another in file order."""
+        """`t`, `image_time`, `frame` and the parameters, which may refer to one another in file order."""
         animation = self.document.get("animation")
         variables = {"t": 0.0, "frame": float(image or 1)}
         if animation:
             first = animation.get("frames", [1, 1])[0]
             index = image if image is not None else first
             variables = {"t": (index - 1) / float(animation.get("fps", 25)), "frame": float(index)}
+        variables["image_time"] = variables["t"]
         for name, value in self.document.get("params", {}).items():
             variables[name] = evaluate(value, variables) if isinstance(value, str) else float(value)
         return variables

@@ -83,6 +83,9 @@ class LightRows {
   /// D65, a blackbody, or the D65 in an illuminant, at `shift` > 0 times each wavelength; empty for others.
   [[nodiscard]] std::optional<Place> at(const Spectrum& light, double shift) const;
 
+  /// Spectrum::blackbody(kelvin) with its scale looked up, which else is a sum: for use at every hit.
+  [[nodiscard]] static Spectrum blackbody(double kelvin);
+
   [[nodiscard]] Weighting weighting(const Place& place) const;
 
   /// Those of D65 at rest.

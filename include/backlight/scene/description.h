@@ -64,6 +64,14 @@ struct Entry {
 const Entry* find(const Node& table, std::string_view name);
 Entry* find(Node& table, std::string_view name);
 
+/// What every expression may use besides the parameters, by index into Description::variables: `t`, the
+/// number of the image, and its scene time, which is what `t` means wherever no clock of a thing's own is
+/// meant.
+inline constexpr std::size_t variable_t = 0;
+inline constexpr std::size_t variable_frame = 1;
+inline constexpr std::size_t variable_image_time = 2;
+inline constexpr std::size_t first_parameter = 3;
+
 /// A scene as written.
 struct Description {
   Description() = default;
@@ -78,16 +86,24 @@ struct Description {
   std::vector<std::shared_ptr<const SourceText>> sources;  ///< every text that was read, and the overrides
   std::vector<std::filesystem::path> folders;  ///< of each source: relative paths in it start here
   Node root;                                   ///< the merged tables
-  std::vector<std::string> variables;          ///< of every expression: "t", "frame", then the parameters
-  std::vector<std::size_t> parameter_order;    ///< indices into `variables`: each after those that it uses
-  std::vector<std::string> overrides;          ///< the -D overrides as given
+  std::vector<std::string>
+      variables;  ///< of every expression: "t", "frame", "image_time", then the parameters
+  std::vector<std::size_t> parameter_order;  ///< indices into `variables`: each after those that it uses
+  /// By index into `variables`: whether it is `t` or a parameter whose formula uses `t`, if through others.
+  /// Such a parameter is a formula and stands where it is used: its `t` is the `t` of that place.
+  std::vector<bool> follows_t;
+  std::vector<std::string> overrides;  ///< the -D overrides as given
   /// SHA-256 (hexadecimal) of the bytes of the scene file, followed by those of each included file in the
   /// order of reading. Without includes it is the digest of the file.
   std::string sha256;
 
   [[nodiscard]] SourceSpan span(const Place& place) const;
 
-  /// Where each of `variables` is written; null for t and frame.
+  /// Whether the expression depends on `t`, if through parameters. It is of `variables`, or of
+  /// formula_variables().
+  [[nodiscard]] bool depends_on_t(const Expression& expression) const;
+
+  /// Where each of `variables` is written; null for those that are no parameters.
   [[nodiscard]] std::vector<const Entry*> parameters() const;
 
   /// Forgets what is in the picture, which is nearly all of a large scene, and the texts: of the film, the

@@ -31,6 +31,16 @@ enum class ValueKind {
   parameters     ///< a table of numbers with names of the author's choice
 };
 
+/// What `t` is in the formulas of a key.
+enum class Clock {
+  image,   ///< the image's scene time: the key is about the picture, or the observer
+  own,     ///< the thing's own time when the light left it
+  motion,  ///< the time of the thing's frame when the light left it: matter moves
+  /// The image's scene time, for want of a meaning: the thing is another one in each image, everywhere at
+  /// once and without delay, of which `warn_of_things_made_anew` warns.
+  anew
+};
+
 /// One way of writing a value.
 struct ValueForm {
   ValueKind kind = ValueKind::number;
@@ -79,6 +89,8 @@ struct Key {
   std::string_view meaning;  ///< a sentence of Markdown
   Range range;
   std::vector<std::string_view> choices;
+  Clock clock = Clock::image;
+  std::string_view physically = {};  ///< of Clock::anew: which key changes as nature does; may be empty
 };
 
 /// The keys of one kind of table.

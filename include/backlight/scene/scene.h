@@ -57,6 +57,30 @@ struct Checker {
   double size = 1.0;  ///< edge of a square, in units of the texture coordinates
 };
 
+/// What of a material runs by the matter's own time (docs/physics.md equation (9b)): formulas of t in scene
+/// seconds, among which constants stand for what does not. scene/material_in_time.h evaluates them.
+struct ReflectanceInTime {
+  using Rgb = std::array<Expression, 3>;
+  std::array<Rgb, 2> colours;  ///< the second of a checker; none of a texture, which has levels alone
+  std::optional<Expression> uv, ir;
+};
+struct LobeInTime {
+  Expression specular, shininess;
+};
+/// A blackbody's, or a colour's, or else a multiple of Material::emission.
+struct EmissionInTime {
+  Expression strength;
+  double exposure = 1.0;  ///< that of the film, if Material::emission does not have it
+  std::optional<Expression> temperature;
+  bool absolute = false;
+  std::optional<ReflectanceInTime::Rgb> colour;
+};
+struct MaterialInTime {
+  std::optional<ReflectanceInTime> reflectance;
+  std::optional<LobeInTime> lobe;
+  std::optional<EmissionInTime> emission;
+};
+
 /// What a surface is made of, in its rest frame. A scene may have a hundred thousand: what few of them have
 /// is behind a pointer.
 struct Material {
@@ -65,10 +89,11 @@ struct Material {
   std::shared_ptr<const Texture> texture;  ///< reflectance from an image, or null
   std::optional<double> uv;  ///< of a texture: level at 300 nm and below, see Spectrum::reflectance
   std::optional<double> ir;  ///< of a texture: level at 890 nm and above
-  std::shared_ptr<const Checker> checker;  ///< or null
-  double specular = 0.0;                   ///< Phong: the share of the light reflected by the lobe
-  double shininess = 50.0;                 ///< Phong: the lobe's exponent
-  std::shared_ptr<const Colour> emission;  ///< own radiance, at rest to itself; null: it emits nothing
+  std::shared_ptr<const Checker> checker;         ///< or null
+  double specular = 0.0;                          ///< Phong: the share of the light reflected by the lobe
+  double shininess = 50.0;                        ///< Phong: the lobe's exponent
+  std::shared_ptr<const Colour> emission;         ///< own radiance, at rest to itself; null: it emits nothing
+  std::shared_ptr<const MaterialInTime> in_time;  ///< null: nothing of it changes
 };
 
 enum class LightKind { point, distant, ambient };
@@ -89,9 +114,8 @@ struct Light {
   double strength = 1.0;
   bool shadows = true;  ///< whether what is in its way hides it; an ambient light's never does
   bool flickers = false;
-  Expression strength_of_time;    ///< of variables {t, frame, params...}, when it flickers
-  std::vector<double> variables;  ///< the values of its variables for this image; [0] is replaced by own time
-                                  ///< in scene seconds
+  Expression strength_of_time;  ///< of t in scene seconds, when it flickers
+                                ///< in scene seconds
 };
 
 /// Whether shadow rays are traced for it.

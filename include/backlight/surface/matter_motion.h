@@ -12,7 +12,7 @@
 
 namespace backlight {
 
-/// How the matter of a surface moves: docs/physics.md section 13. Places are in the local coordinates of the
+/// How the matter of a surface moves: docs/physics.md section 10. Places are in the local coordinates of the
 /// surface, which rest in the frame; times are the frame's (c = 1), and velocities in local coordinates by
 /// that time. Immutable; safe to use from many threads.
 class MatterMotion {
@@ -20,7 +20,7 @@ class MatterMotion {
   /// Three formulas of x, y, z and t, t in seconds.
   using Map = std::array<Expression, 3>;
 
-  /// Equation (33): a body point is somewhere at each time, and each place is at each time a body point's.
+  /// Equation (22): a body point is somewhere at each time, and each place is at each time a body point's.
   struct Body {
     Map place;  ///< of a body point
     Map point;  ///< of a place: which body point is there
@@ -36,10 +36,16 @@ class MatterMotion {
     double begins = -std::numeric_limits<double>::infinity();
   };
 
+  struct Time {
+    double seconds_per_length = 1.0;
+    /// False: nothing asks for own_time(), which takes as long as some hundred formulas.
+    bool counts = true;
+  };
+
   /// `body_shape`: whose texture coordinates the body points have.
-  MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball, double seconds_per_length);
+  MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball, Time time);
   /// Of a flow of matter, told by its velocity in local lengths for a second.
-  MatterMotion(Map velocity, double seconds_per_length);
+  MatterMotion(Map velocity, Time time);
 
   [[nodiscard]] const std::optional<Ball>& ball() const { return ball_; }
 
@@ -52,7 +58,9 @@ class MatterMotion {
   /// Of the matter at a place.
   [[nodiscard]] Vec3 velocity(const Vec3& place, double time) const;
 
-  /// What the clock of the matter at a place has counted since the frame's time 0: equation (36).
+  /// Whether own times are asked for.
+  [[nodiscard]] bool counts_time() const { return time_.counts; }
+  /// What the clock of the matter at a place has counted since the frame's time 0: equation (25).
   /// `rest_from_local`: what makes velocities of the frame's of local ones.
   [[nodiscard]] double own_time(const Vec3& place, double time, const Mat3& rest_from_local) const;
 
@@ -71,7 +79,7 @@ class MatterMotion {
   Shape body_shape_;
   std::optional<Map> velocity_;
   std::optional<Ball> ball_;
-  double seconds_per_length_;
+  Time time_;
 };
 
 }  // namespace backlight

@@ -9,7 +9,7 @@ namespace backlight {
 
 /// A point of a surface that the camera sees. What its matter reflects is told in the matter's own frame:
 /// that of the surface or, of matter that is not at rest there, the one that goes along with it
-/// (docs/physics.md section 13), along the same axes.
+/// (docs/physics.md section 10), along the same axes.
 struct SeenPoint {
   FirstHit hit;
   SurfacePoint surface;                 ///< in the surface's frame

@@ -29,7 +29,7 @@ class RestColours {
                   static_cast<std::size_t>(slot)];
   }
 
-  /// The same of a texture's value, components in [0, 1].
+  /// The same of what a point reflects, components in [0, 1] or NaN.
   [[nodiscard]] LinearRgb under(std::size_t light, const LinearRgb& texel) const;
 
  private:

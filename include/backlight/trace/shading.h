@@ -35,11 +35,10 @@ struct RayCounts {
 
 /// Working memory of one thread.
 struct Scratch {
-  Scratch(const Hub& hub, const Scene& scene, std::size_t wavelengths, InstructionSet set);
+  Scratch(const Hub& hub, std::size_t wavelengths, InstructionSet set);
 
   RayInFrames rays;
   RayCounts counts;
-  std::vector<std::vector<double>> light_variables;  ///< for strengths that change with time
   const SpectralKernels* kernels;   ///< for these, of one value a wavelength of a set of the camera's:
   double shift = 1.0;               ///< D from the surface (or sky) to the camera
   int shifted = 0;                  ///< of the set of how many wavelengths `wavelengths` are; 0: of none

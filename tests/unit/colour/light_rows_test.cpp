@@ -65,6 +65,16 @@ TEST(LightRows, BlackbodiesFromTheColdestToTheHottest) {
   EXPECT_LT(worst, 1e-8);
 }
 
+TEST(LightRows, BlackbodiesOfFilmLuminanceOne) {
+  double worst = 0.0;
+  for (double kelvin = 20.0; kelvin < 1e8; kelvin *= 1.0137) {
+    const Spectrum exact = Spectrum::blackbody(kelvin), found = LightRows::blackbody(kelvin);
+    EXPECT_EQ(found.form().c0, kelvin);
+    worst = std::max(worst, std::abs(found.form().c1 - exact.form().c1));
+  }
+  EXPECT_LT(worst, 1e-8);
+}
+
 TEST(LightRows, Daylight) {
   double worst = 0.0;
   for (double shift = 0.15; shift < 6.0; shift *= 1.00171) {

@@ -105,7 +105,6 @@ TEST(TracingThreads, RethrowWhatATileThrows) {
   lamp.kind = LightKind::ambient;
   lamp.flickers = true;
   lamp.strength_of_time = std::get<Expression>(Expression::parse("t + frame", {"t", "frame"}));
-  lamp.variables = {0.0};
   bad.scene.lights.push_back(lamp);
   Work good(1.0);
   for (Work* work : {&bad, &good}) {

@@ -115,7 +115,8 @@ TEST(CompileBlend, FacesOfBoxAndCylinderAreResolved) {
 
 // The bounds of one image are those of the next where the formula is the same, and only there.
 TEST(CompileImplicit, BoundsAreProvedOnceForEachFormula) {
-  const std::string text = camera + "[animation]\nframes = [1, 3]\n[params]\nsize = \"floor(1 + t)\"\n" +
+  const std::string text = camera +
+                           "[animation]\nframes = [1, 3]\n[params]\nsize = \"floor(1 + image_time)\"\n" +
                            implicit_object("x^2 + y^2 + z^2 - size^2");
   ReadResult read = read_scene_text(text, "test.toml", {});
   ASSERT_TRUE(read.description) << testing_scenes::all_messages(read.diagnostics);

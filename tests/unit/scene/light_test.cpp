@@ -177,10 +177,7 @@ TEST(SceneLights, FlickerInTheirOwnTime) {
   const Scene scene = compiled(text);
   const Light& light = scene.lights[0];
   ASSERT_TRUE(light.flickers);
-  std::vector<double> variables = light.variables;
-  ASSERT_EQ(variables.size(), 3U);
-  variables[0] = 10.0;
-  EXPECT_EQ(light.strength_of_time.evaluate(variables), 35.0);
+  EXPECT_EQ(light.strength_of_time.evaluate(std::array{10.0}), 35.0);
   EXPECT_FALSE(scene.lights[1].flickers);
   EXPECT_EQ(scene.lights[1].strength, 15.0);
 }

@@ -149,7 +149,7 @@ TEST(Motion, FramesWithinFramesAddTheirRapidities) {
 
 TEST(Motion, MayDependOnTime) {
   const std::string text = "[animation]\nfps = 10\nframes = [1, 11]\n" + camera +
-                           "[[object]]\nshape = \"plane\"\nbeta = [\"0.5*t\", 0, 0]\n";
+                           "[[object]]\nshape = \"plane\"\nbeta = [\"0.5*image_time\", 0, 0]\n";
   ImageRequest last;
   last.frame = 11;
   EXPECT_EQ(compiled(text).frames.size(), 1U);
