@@ -194,6 +194,7 @@ class MotionCompiler {
       moving.shape = tree.shape;
       moving.placement = moving.placement.around(tree.placement);
     }
+    moving.shape.presence = shape.presence;
     return moving;
   }
 

@@ -9,6 +9,8 @@
 #include <cstdint>
 
 #include "backlight/base/lanes.h"
+#include "backlight/camera/sample_digits.h"
+#include "backlight/film/lane_texture.h"
 #include "backlight/surface/ray_sheet.h"
 #include "backlight/trace/sheet_tracer.h"
 
@@ -135,6 +137,7 @@ struct PointSheet {
   SheetPoints points;  ///< the normal on the side that is seen, after face()
   int material[sheet_size];
   // face():
+  std::uint64_t unresolved;  ///< hits, one bit each
   alignas(64) double to_camera[3][sheet_size];
   alignas(64) double proper_time[sheet_size];
   alignas(64) double doppler[sheet_size];  ///< D on the way to the camera
@@ -159,14 +162,12 @@ struct PointSheet {
   alignas(64) double irradiance[sheet_size];
   alignas(64) double specular[sheet_size];
   alignas(64) double diffuse[3][sheet_size];  ///< film colour under this lamp
+  // Of shifted colours:
+  std::uint64_t odd_squares = 0;           ///< of a checker
+  alignas(64) double shift[sheet_size];    ///< D from the lamp to the camera
+  alignas(64) double lamp[4][sheet_size];  ///< film colour of all of its light, and that's luminance
   alignas(64) double rgb[3][sheet_size];
 
-  /// The lit ones, one bit each.
-  [[nodiscard]] std::uint64_t lit_bits() const {
-    std::uint64_t all = 0;
-    for (int i = 0; i < sheet_size; ++i) all |= (lit[i] > 0.0 ? std::uint64_t{1} : 0) << i;
-    return all & first_bits(count);
-  }
   [[nodiscard]] LightRays light_rays() {
     return {{way[0], way[1], way[2]}, way_length, relative_emission_time, lit};
   }
@@ -184,7 +185,8 @@ struct LaneLamp {
   LaneFrame frame;           ///< the light's
   LaneMotion to_surface;     ///< from the light's frame to the surface's
   double time_offset = 0.0;  ///< of the eye from the camera's event, in the light's frame
-  bool own_frame = false;    ///< it rests in the surface's frame
+  int surface_frame = -1;
+  bool own_frame = false;  ///< it rests in the surface's frame
   bool distant = false;
   double position[3]{};
   double direction[3]{};
@@ -203,10 +205,12 @@ struct LightSpan {
 struct LaneReflection {
   LaneBrightness brightness;
   bool distant = false;
-  double gamma = 1.0;          ///< of the lamp relative to the surface
-  double specular = 0.0;       ///< k (n+2)/2π; 0: none
-  double shininess = 1.0;      ///< n
-  double lamp[3]{};            ///< its film colour
+  double gamma = 1.0;      ///< of the lamp relative to the surface
+  double specular = 0.0;   ///< k (n+2)/2π; 0: none
+  double shininess = 1.0;  ///< n
+  bool same_lamp = true;   ///< at all points it has the film colour `lamp`, else PointSheet's
+  double lamp[3]{};
+  bool shifted = false;        ///< these colours are at the camera's wavelengths
   bool same_strength = false;  ///< at all points: `strength`, else PointSheet's
   double strength = 0.0;
   bool same_diffuse = false;  ///< at all points: `diffuse`, else PointSheet's
@@ -217,6 +221,8 @@ struct LaneReflection {
 /// The kernels of one instruction set.
 struct SheetKernels {
   const char* name;
+  /// sample_point() of 64 pixels, of several samples each.
+  void (*sample)(const SampleRow& row, const int* column, const int* line, double* x, double* y);
   /// The looking directions of a perspective image at the points (x, y): camera/projection.h.
   void (*look)(const LaneLens& lens, const double* x, const double* y, SheetRays& rays);
   /// The smallest bundle about the mean of the rays.
@@ -229,14 +235,16 @@ struct SheetKernels {
   /// axis, of some of the rays.
   void (*gather)(const LaneLamp& lamp, const SheetRays& rays, const SheetHits& hits, const double* axis,
                  LightSpan& span);
-  /// Which of the first `count` hits are of this surface, one bit each.
-  std::uint64_t (*same)(const SheetHits& hits, int count, double who);
+  /// Which of the first `count` numbers are this one, one bit each.
+  std::uint64_t (*same)(const double* numbers, int count, double which);
   /// Which rays are in the cone, one bit each; those of their registers in the frame, into `to`.
   std::uint64_t (*enter)(const LaneFrame& frame, const LaneCone& cone, const SheetRays& rays, RaySheet& to);
   /// The camera rays of the points in their frame, into points.rays.
   void (*in_frame)(const LaneFrame& frame, PointSheet& points);
   /// What follows from points however found: `to_camera`, proper time, D, and the normal's side.
   void (*face)(PointSheet& points);
+  /// The same of rays to the sky: D and texture coordinates.
+  void (*face_sky)(PointSheet& points);
   /// What of a lamp's light reaches the points, but for shadows. Bits: the lit ones.
   std::uint64_t (*arrive)(const LaneLamp& lamp, PointSheet& points);
   /// The bundle of the lit rays from `first` to `last` (whole registers); false when there are none.
@@ -254,8 +262,10 @@ struct SheetKernels {
   void (*reflect)(const LaneReflection& reflection, PointSheet& points);
   /// rgb += irradiance (diffuse/π + specular lamp) where lit.
   void (*add_light)(const LaneReflection& reflection, PointSheet& points);
-  /// To the camera: rgb *= F.
-  void (*carry)(const LaneBrightness& brightness, double gamma, PointSheet& points);
+  /// Which of the points are on a checker's odd squares, one bit each.
+  std::uint64_t (*odd_squares)(double size, const PointSheet& points);
+  /// To the camera: rgb *= F, or F D for shifted colours.
+  void (*carry)(const LaneBrightness& brightness, double gamma, bool shifted, PointSheet& points);
 };
 
 /// The kernels, if this machine runs them; `baseline` always does.

@@ -58,6 +58,10 @@ struct KernelsOf {
   using V3 = LaneVec3<V>;
   using Mask = LaneMask<N>;
 
+  static void sample(const SampleRow& row, const int* column, const int* line, double* x, double* y) {
+    for (int i = 0; i < sheet_size; i += N) sample_points<N>(row, column + i, line + i, x + i, y + i);
+  }
+
   static void look(const LaneLens& lens, const double* across, const double* down, SheetRays& rays) {
     const V3 forward(lens.forward), right(lens.right), up(lens.up);
     const V half_width(lens.half_width), half_height(lens.half_height), step(lens.step);
@@ -327,11 +331,20 @@ struct KernelsOf {
     span.reach = most_of(reach);
   }
 
-  static std::uint64_t same(const SheetHits& hits, int count, double who) {
+  static std::uint64_t same(const double* numbers, int count, double which) {
     std::uint64_t all = 0;
     for (int i = 0; i < count; i += N)
-      all |= static_cast<std::uint64_t>(bits(V::load(hits.who + i) == V(who))) << i;
+      all |= static_cast<std::uint64_t>(bits(V::load(numbers + i) == V(which))) << i;
     return all & first_bits(count);
+  }
+
+  static std::uint64_t odd_squares(double size, const PointSheet& p) {
+    std::uint64_t all = 0;
+    for (int i = 0; i < p.padded; i += N) {
+      const Mask odd = is_odd_square(V(size), V::load(p.points.u + i), V::load(p.points.v + i));
+      all |= static_cast<std::uint64_t>(bits(odd)) << i;
+    }
+    return all;
   }
 
   static void begin_rays(const LaneFrame& frame, int padded, RaySheet& to) {
@@ -371,7 +384,9 @@ struct KernelsOf {
   static void face(PointSheet& p) {
     p.shadow.padded = p.padded;
     p.shadow.one_origin = false;
+    p.unresolved = 0;
     for (int i = 0; i < p.padded; i += N) {
+      p.unresolved |= static_cast<std::uint64_t>(bits(V::load(p.hits->part + i) < V(0.0))) << i;
       const V inverse_length = V(1.0) / V::load(p.rays.length + i);
       const V3 to_camera = inverse_length * -load3<V>(p.rays.direction, i);
       const V3 normal = load3<V>(p.points.normal, i);
@@ -385,6 +400,15 @@ struct KernelsOf {
       time.store(p.shadow.start_time + i);
       (p.light_delay ? inverse_length : V(1.0)).store(p.doppler + i);
       select(outside, V::load(p.own + i), V::load(p.own_inside + i)).store(p.own + i);
+    }
+  }
+
+  static void face_sky(PointSheet& p) {
+    for (int i = 0; i < p.padded; i += N) {
+      (p.light_delay ? V(1.0) / V::load(p.rays.length + i) : V(1.0)).store(p.doppler + i);
+      const LaneSkyPlace<V> place(load3<V>(p.rays.direction, i));
+      place.u.store(p.points.u + i);
+      place.v.store(p.points.v + i);
     }
   }
 
@@ -520,25 +544,33 @@ struct KernelsOf {
   }
 
   static void add_light(const LaneReflection& r, PointSheet& p) {
-    const V pi = 3.141592653589793;
+    const V inverse_pi = 0.31830988618379067;
     for (int i = 0; i < p.padded; i += N) {
       const Mask lit = V::load(p.lit + i) > V(0.0);
       const V3 before = r.own != nullptr ? V3{V(r.own[0]), V(r.own[1]), V(r.own[2])} : load3<V>(p.rgb, i);
-      const V3 diffuse = (r.same_diffuse ? V3(r.diffuse) : load3<V>(p.diffuse, i)) / pi;
-      const V3 sum = diffuse + V::load(p.specular + i) * V3(r.lamp);
-      store3(select(lit, before + V::load(p.irradiance + i) * sum, before), p.rgb, i);
+      const V3 diffuse = inverse_pi * (r.same_diffuse ? V3(r.diffuse) : load3<V>(p.diffuse, i));
+      const V3 lamp = r.same_lamp
+                          ? V3(r.lamp)
+                          : V3{V::load(p.lamp[0] + i), V::load(p.lamp[1] + i), V::load(p.lamp[2] + i)};
+      V density = V::load(p.irradiance + i);
+      if (r.shifted) density = density * V::load(p.lamp_doppler + i);
+      const V3 sum = diffuse + V::load(p.specular + i) * lamp;
+      store3(select(lit, before + density * sum, before), p.rgb, i);
     }
   }
 
-  static void carry(const LaneBrightness& brightness, double gamma, PointSheet& p) {
+  static void carry(const LaneBrightness& brightness, double gamma, bool shifted, PointSheet& p) {
     for (int i = 0; i < p.padded; i += N) {
-      const V factor = brightness_factor(brightness, V::load(p.doppler + i), gamma, true);
+      const V doppler = V::load(p.doppler + i);
+      V factor = brightness_factor(brightness, doppler, gamma, true);
+      if (shifted) factor = factor * doppler;
       store3(factor * load3<V>(p.rgb, i), p.rgb, i);
     }
   }
 
   static constexpr SheetKernels table(const char* name) {
     return {.name = name,
+            .sample = sample,
             .look = look,
             .bundle = bundle,
             .overlapping = overlapping,
@@ -548,6 +580,7 @@ struct KernelsOf {
             .enter = enter,
             .in_frame = in_frame,
             .face = face,
+            .face_sky = face_sky,
             .arrive = arrive,
             .light_bundle = light_bundle,
             .sift = sift,
@@ -555,6 +588,7 @@ struct KernelsOf {
             .cast = cast,
             .reflect = reflect,
             .add_light = add_light,
+            .odd_squares = odd_squares,
             .carry = carry};
   }
 };

@@ -1,5 +1,6 @@
 #include "sheet_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -14,6 +15,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_extended(const FrameView& view) {
   return view.from_camera.is_robust() || view.far != nullptr;
+}
+
+// Whether a material of the object is another one at each time.
+bool lives(const Scene& scene, const Object& object) {
+  const auto its = [&](int material) {
+    return scene.materials[static_cast<std::size_t>(material)].in_time != nullptr;
+  };
+  return its(object.material) || std::ranges::any_of(object.member_materials, its);
 }
 
 }  // namespace
@@ -54,10 +63,10 @@ void SheetScene::list_entries(const Scene& scene) {
     for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {
       const Object& object = object_of(scene, frame, s);
       const int key = object.member_materials.empty() ? object.material : -1 - object.id;
-      const bool moves = surfaces.moves(s);
+      const bool singly = surfaces.moves(s) || lives(scene, object);
       const auto [group, is_new] =
-          group_of[moves ? 1 : 0].try_emplace(key, static_cast<int>(group_moves_.size()));
-      if (is_new) group_moves_.push_back(moves);
+          group_of[singly ? 1 : 0].try_emplace(key, static_cast<int>(goes_singly_.size()));
+      if (is_new) goes_singly_.push_back(singly);
       numbered_.push_back({static_cast<int>(entries_.size()), group->second});
       entry.casts_shadows = entry.casts_shadows || surfaces.casts_shadow(s);
     }
@@ -84,7 +93,10 @@ EyeView SheetScene::view_of(const Scene& scene, int eye) const {
       const Entry& entry = entries_[i];
       const FrameView& view = hub_->frames[static_cast<std::size_t>(entry.frame)];
       const double* o = result.frames[static_cast<std::size_t>(entry.frame)].origin;
-      const BoundingSphere sphere = surfaces(entry).bounds();
+      const LaneFrame& eye_frame = result.frames[static_cast<std::size_t>(entry.frame)];
+      const BoundingSphere sphere = delayed != 0 && !entry.extended
+                                        ? surfaces(entry).seen_from({o[0], o[1], o[2]}, eye_frame.time)
+                                        : surfaces(entry).bounds();
       LaneCone cone;
       cone.level = -infinity;
       double radius = 0.0;
