@@ -112,7 +112,9 @@ bool ride(Compilation& c, const TableView& camera) {
   const MatterMotion::Body body = body_of({level});
   const MatterMotion motion(body, sphere(1.0), std::nullopt, {1.0 / c.scene.c, true});
   const double time = time_of_exposure(camera, motion, body, point, base, c.scene.c);
-  const Passenger here = at_time(body, point, time / c.scene.c, c.scene.c);
+  // Faster than light it has no own time.
+  const double when = std::isfinite(time) ? time : c.scene.c * camera.number("time");
+  const Passenger here = at_time(body, point, when / c.scene.c, c.scene.c);
   const double speed = glm::length(here.velocity);
   if (!(speed < 1.0) || !std::isfinite(time)) {
     camera.error("position", "aboard, the camera would have |velocity| = " + number_text(speed * c.scene.c) +

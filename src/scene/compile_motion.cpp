@@ -28,6 +28,28 @@ bool place_uses_time(const Description& description, const Node& table) {
                              [&](const Node& part) { return place_uses_time(description, part); });
 }
 
+/// Matter that flows together has no velocity of its parts: whether a table's blends are at rest in
+/// themselves.
+bool blends_move_as_a_whole(Compilation& c, const TableView& table) {
+  if (table.node_of("part") == nullptr || table.node_of("part")->array() == nullptr) return true;
+  bool good = true;
+  for (const Node& node : *table.node_of("part")->array()) {
+    const TableView part(c.values, &node, *find_table("object.part"));
+    good = blends_move_as_a_whole(c, part) && good;
+    if (!table.has_valid("blend")) continue;
+    for (const std::string_view key : {"position", "rotate", "scale"}) {
+      const Entry* entry = find(node, key);
+      if (entry == nullptr || !uses_time(c.values.description, entry->node)) continue;
+      part.error(key,
+                 "the parts of a blend cannot move against each other: where they flow together, the matter "
+                 "is no one's",
+                 "the whole can move; image_time instead of t puts a part somewhere else for each image");
+      good = false;
+    }
+  }
+  return good;
+}
+
 /// Everywhere within a body's own box f is as it was, and outside it is undefined: an open surface ends
 /// there.
 Expression within_box(const Expression& f, const Vec3& low, const Vec3& high, bool closed) {
@@ -168,6 +190,7 @@ class MotionCompiler {
       : c_(c), object_(object), prover_(c, frame) {}
 
   std::optional<MovingShape> put_in_motion(const Shape& shape, const SolidTree* solid, const Vec3& offset) {
+    if (!blends_move_as_a_whole(c_, object_)) return std::nullopt;
     MotionLevel whole = level_of(object_);
     if (has_motion(object_)) whole.position = constant_formulas(Vec3{0.0});
     const std::size_t errors = c_.values.diagnostics.error_count();
