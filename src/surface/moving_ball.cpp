@@ -108,6 +108,19 @@ double retarded_time(const MatterMotion& motion, const Vec3& place, double time,
   return at;
 }
 
+/// The passing that is seen from an event, and from others no farther than `apart` from it. Of light that
+/// left within r of the centre at t, |h(t)| <= r + apart with the h of (29), which falls: between its roots
+/// for times that much earlier and later.
+Passing passing_of_light(const MatterMotion& motion, const Vec3& place, double time, double apart) {
+  const MatterMotion::Ball& ball = *motion.ball();
+  const double doubt = 1e-3 * ball.radius;
+  const double reach = ball.radius + apart + 2.0 * doubt + 1e-12 * std::abs(time);
+  const double first = retarded_time(motion, place, time - reach, doubt);
+  const double last = retarded_time(motion, place, time + reach, doubt);
+  return passing_at(motion, 0.5 * first + 0.5 * last,
+                    0.5 * (last - first) * (1.0 + 1e-9) + 1e-12 * std::abs(time));
+}
+
 struct LineStart {
   Vec3 place;
   double time;
@@ -158,32 +171,17 @@ void inside_ball(const MatterMotion& motion, const LocalLines& lines,
     for (std::size_t i = 0; i < lines.count; ++i) stretches[i] = inside_ball(motion, lines.line(i));
     return;
   }
-  const double doubt = 1e-3 * ball.radius;
-  const double time = retarded_time(motion, first.place, first.time, doubt);
-  const double half_time =
-      1.001 * ((ball.radius + apart + doubt) / (1.0 - ball.speed)) + 1e-12 * std::abs(first.time);
-  const Passing passing = passing_at(motion, time, half_time);
+  const Passing passing = passing_of_light(motion, first.place, first.time, apart);
   for (std::size_t i = 0; i < lines.count; ++i) {
     stretches[i] = inside_passing(passing, lines.line(i), ball.begins);
   }
 }
 
 BoundingSphere seen_from(const MatterMotion& motion, const Vec3& place, double time) {
-  const MatterMotion::Ball& ball = *motion.ball();
-  const double doubt = 1e-3 * ball.radius;
-  const double at = retarded_time(motion, place, time, doubt);
-  const double half_time = 1.001 * (ball.radius + doubt) / (1.0 - ball.speed) + 1e-12 * std::abs(time);
-  const Passing passing = passing_at(motion, at, half_time);
-  // Of a body that goes on as it does at `at`, |Δt| <= r/(1 - |v·n|): no more of the window is seen.
-  const Vec3 way = passing.centre - place;
-  const double length = glm::length(way);
-  const double speed = glm::length(passing.velocity);
-  const double turned =
-      length > 0.0 ? std::min(1.0, 2.0 * passing.radius / ((1.0 - ball.speed) * length)) : 1.0;
-  const double along = length > 0.0 ? std::abs(glm::dot(passing.velocity, way)) / length : speed;
-  const double towards = std::min(speed, along + speed * turned);
-  const double seen = std::min(half_time, (passing.radius + doubt) / (1.0 - towards));
-  return {passing.centre, (passing.radius + speed * seen) * (1.0 + 1e-9) + 1e-12 * (length + std::abs(time))};
+  const Passing passing = passing_of_light(motion, place, time, 0.0);
+  const double size = glm::length(passing.centre - place) + std::abs(time);
+  const double radius = passing.radius + glm::length(passing.velocity) * passing.half_time;
+  return {passing.centre, radius * (1.0 + 1e-9) + 1e-12 * size};
 }
 
 }  // namespace backlight

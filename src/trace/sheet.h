@@ -16,6 +16,8 @@
 
 namespace backlight {
 
+struct Light;
+
 /// `count` rounded up to whole registers of any width.
 inline int padded_count(int count) {
   return (count + 7) / 8 * 8;
@@ -133,6 +135,10 @@ struct PointSheet {
   };
   Run runs[sheet_size];
   int run_count = 0;
+  /// Whether their matter may not be at rest in their frame: then its celerity there, and γ.
+  bool moves = false;
+  alignas(64) double celerity[3][sheet_size];
+  alignas(64) double gamma[sheet_size];
   RaySheet rays;       ///< the camera's, in their frame
   SheetPoints points;  ///< the normal on the side that is seen, after face()
   int material[sheet_size];
@@ -180,6 +186,15 @@ struct LaneBrightness {
   bool solid_angle = true;
 };
 
+/// Where light left a lamp on a path that arrives at some events, for a register of them: illumination.h has
+/// it for one.
+struct LampMeeting {
+  double way[3][8];      ///< from the event to the lamp
+  double length[8];      ///< of the way
+  double own_length[8];  ///< the same in the frame of the lamp's velocity
+  double time[8];        ///< by which its strength goes
+};
+
 /// A light as seen from the frame of a sheet's points.
 struct LaneLamp {
   LaneFrame frame;           ///< the light's
@@ -190,6 +205,9 @@ struct LaneLamp {
   bool distant = false;
   double position[3]{};
   double direction[3]{};
+  /// Of a lamp on a path: called for `count` events, place by place and time by time; else null.
+  void (*meet)(const Light&, int count, const double (*place)[8], const double* time, LampMeeting&) = nullptr;
+  const Light* light = nullptr;
 };
 
 /// What a bundle of light is made from.
@@ -205,7 +223,8 @@ struct LightSpan {
 struct LaneReflection {
   LaneBrightness brightness;
   bool distant = false;
-  double gamma = 1.0;      ///< of the lamp relative to the surface
+  double gamma = 1.0;      ///< of the lamp relative to the surface...
+  double way[3]{};         ///< ...and its celerity seen from there, for matter that moves
   double specular = 0.0;   ///< k (n+2)/2π; 0: none
   double shininess = 1.0;  ///< n
   bool same_lamp = true;   ///< at all points it has the film colour `lamp`, else PointSheet's
@@ -216,6 +235,14 @@ struct LaneReflection {
   bool same_diffuse = false;  ///< at all points: `diffuse`, else PointSheet's
   double diffuse[3]{};
   const double* own = nullptr;  ///< the first lamp's light is added to this, else to the points' rgb
+};
+
+/// How the light of points goes to the camera.
+struct LaneCarriage {
+  LaneBrightness brightness;
+  double gamma = 1.0;  ///< of the camera relative to their frame...
+  double way[3]{};     ///< ...and its celerity seen from there, for matter that moves
+  bool shifted = false;
 };
 
 /// The kernels of one instruction set.
@@ -265,7 +292,7 @@ struct SheetKernels {
   /// Which of the points are on a checker's odd squares, one bit each.
   std::uint64_t (*odd_squares)(double size, const PointSheet& points);
   /// To the camera: rgb *= F, or F D for shifted colours.
-  void (*carry)(const LaneBrightness& brightness, double gamma, bool shifted, PointSheet& points);
+  void (*carry)(const LaneCarriage& carriage, PointSheet& points);
 };
 
 /// The kernels, if this machine runs them; `baseline` always does.

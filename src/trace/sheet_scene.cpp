@@ -45,6 +45,7 @@ SheetScene::SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& k
   for (std::size_t i = 0; i < hub.lights.size(); ++i) {
     lamps_.push_back(view_of(scene, i));
     if (scene.lights[i].kind == LightKind::ambient) continue;
+    lamps_move_ = lamps_move_ || scene.lights[i].motion;
     for (std::size_t f = 0; f < hub.frames.size(); ++f) {
       if (!lamps_[i].in_lanes || is_extended(hub.frames[f]) || hub.lights[i].to_frame[f].is_robust())
         lit_in_lanes_[f] = false;
@@ -59,14 +60,14 @@ void SheetScene::list_entries(const Scene& scene) {
     const int first = static_cast<int>(numbered_.size());
     Entry entry{frame, first, is_extended(view), false};
     // Solids of several materials are a group each: which one a point has is not known before.
-    std::unordered_map<int, int> group_of[2];
+    std::unordered_map<int, int> group_of[4];
     for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {
       const Object& object = object_of(scene, frame, s);
       const int key = object.member_materials.empty() ? object.material : -1 - object.id;
-      const bool singly = surfaces.moves(s) || lives(scene, object);
-      const auto [group, is_new] =
-          group_of[singly ? 1 : 0].try_emplace(key, static_cast<int>(goes_singly_.size()));
-      if (is_new) goes_singly_.push_back(singly);
+      const Group its{lives(scene, object), surfaces.moves(s)};
+      const auto [group, is_new] = group_of[(its.lives ? 1 : 0) + (its.moves ? 2 : 0)].try_emplace(
+          key, static_cast<int>(groups_.size()));
+      if (is_new) groups_.push_back(its);
       numbered_.push_back({static_cast<int>(entries_.size()), group->second});
       entry.casts_shadows = entry.casts_shadows || surfaces.casts_shadow(s);
     }
@@ -123,7 +124,7 @@ LampView SheetScene::view_of(const Scene& scene, std::size_t light) const {
   const Light& lamp = scene.lights[light];
   if (lamp.kind == LightKind::ambient) return result;
   const FrameView& lamp_frame = hub_->frames[static_cast<std::size_t>(lamp.frame)];
-  result.in_lanes = !is_extended(lamp_frame) && !lamp.motion;
+  result.in_lanes = !is_extended(lamp_frame);
   for (const auto& to_frame : hub_->lights[light].to_frame) result.to_frame.push_back(lane_motion(to_frame));
 
   const Vec3 from = lamp_frame.camera_event.x;
@@ -136,7 +137,7 @@ LampView SheetScene::view_of(const Scene& scene, std::size_t light) const {
     const Entry& entry = entries_[i];
     if (!entry.casts_shadows) continue;
     const BoundingSphere sphere = surfaces(entry).bounds();
-    if (!std::isfinite(sphere.radius)) {
+    if (!std::isfinite(sphere.radius) || lamp.motion) {
       result.unbounded.push_back(static_cast<int>(i));
       continue;
     }

@@ -75,17 +75,23 @@ class SheetScene {
   [[nodiscard]] const Numbered& numbered(int number) const {
     return numbered_[static_cast<std::size_t>(number)];
   }
-  [[nodiscard]] std::size_t group_count() const { return goes_singly_.size(); }
-  /// Whether the points of the group are lighted one at a time, by the law: of matter that may not be at rest
-  /// in its frame, or whose material is another one at each time.
-  [[nodiscard]] bool goes_singly(int group) const { return goes_singly_[static_cast<std::size_t>(group)]; }
+  [[nodiscard]] std::size_t group_count() const { return groups_.size(); }
+  /// Whether the points of the group are lighted one at a time, by the law: their material is another one at
+  /// each time.
+  [[nodiscard]] bool goes_singly(int group) const { return groups_[static_cast<std::size_t>(group)].lives; }
+  /// Whether the matter of the group may not be at rest in its frame.
+  [[nodiscard]] bool moves(int group) const { return groups_[static_cast<std::size_t>(group)].moves; }
   [[nodiscard]] const SurfaceSet& surfaces(const Entry& entry) const {
     return *hub_->frames[static_cast<std::size_t>(entry.frame)].scene->surfaces;
   }
   [[nodiscard]] const EyeView& eye(int eye) const { return eyes_[eye > 0 ? 1 : 0]; }
   [[nodiscard]] const LampView& lamp(std::size_t light) const { return lamps_[light]; }
   /// Whether all lights of points of this frame can be done in lanes.
-  [[nodiscard]] bool lit_in_lanes(int frame) const { return lit_in_lanes_[static_cast<std::size_t>(frame)]; }
+  [[nodiscard]] bool lit_in_lanes(int frame, const Effects& effects) const {
+    // Of a lamp on a path, γ is another one for each point: only this effect asks for it.
+    const bool by_gamma = lamps_move_ && effects.brightness.arrival_rate == ArrivalRate::dilation;
+    return lit_in_lanes_[static_cast<std::size_t>(frame)] && !by_gamma;
+  }
 
  private:
   void list_entries(const Scene& scene);
@@ -96,7 +102,11 @@ class SheetScene {
   const Hub* hub_;
   std::vector<Entry> entries_;
   std::vector<Numbered> numbered_;
-  std::vector<bool> goes_singly_;
+  struct Group {
+    bool lives, moves;
+  };
+  std::vector<Group> groups_;
+  bool lamps_move_ = false;
   std::vector<EyeView> eyes_;
   std::vector<LampView> lamps_;
   std::vector<bool> lit_in_lanes_;

@@ -21,6 +21,31 @@ void put(const Vec3& a, double (&to)[3][sheet_size], int lane) {
   for (int k = 0; k < 3; ++k) to[k][lane] = a[k];
 }
 
+// The celerity of From as seen from To, in To's axes, but for its sign.
+template <class To, class From>
+void put_way(const LorentzTransform<To, From>& transform, double (&way)[3]) {
+  const Vec3 w = transform.is_rotated() ? transform.rotation() * transform.celerity() : transform.celerity();
+  for (int k = 0; k < 3; ++k) way[k] = w[k];
+}
+
+LaneCarriage carriage(const FrameView& frame, const Effects& effects, bool shifted) {
+  LaneCarriage result{lane_brightness(effects.towards_camera()), frame.from_camera.gamma(), {}, shifted};
+  put_way(frame.from_camera, result.way);
+  return result;
+}
+
+// way_to_lamp() of several events.
+void meet_lamp(const Light& light, int count, const double (*place)[8], const double* time,
+               LampMeeting& meeting) {
+  for (int i = 0; i < count; ++i) {
+    const LampMoment moment = way_to_moving(light, {place[0][i], place[1][i], place[2][i]}, time[i]);
+    for (int k = 0; k < 3; ++k) meeting.way[k][i] = moment.direction.x[k];
+    meeting.length[i] = moment.direction.length;
+    meeting.own_length[i] = moment.own_length();
+    meeting.time[i] = moment.strength_time(light);
+  }
+}
+
 }  // namespace
 
 LaneBrightness lane_brightness(const BrightnessSwitches& on) {
@@ -64,6 +89,8 @@ const LaneLamp& SheetShader::lane_lamp(std::size_t light, int frame) const {
       lanes.frame.time - tracer_.hub().frames[static_cast<std::size_t>(lamp.frame)].camera_event.t;
   lanes.own_frame = lamp.frame == frame;
   lanes.distant = lamp.kind == LightKind::distant;
+  lanes.meet = lamp.motion ? meet_lamp : nullptr;
+  lanes.light = &lamp;
   for (int i = 0; i < 3; ++i) {
     lanes.position[i] = lamp.position[i];
     lanes.direction[i] = lamp.direction[i];
@@ -121,9 +148,26 @@ bool SheetShader::resolve() {
       p.material[i] = members[static_cast<std::size_t>(p.points.member[i])];
     }
   }
+  p.moves = sheets_.moves(sheets_.numbered(p.runs[0].surface).group);
+  too_fast_ = p.moves && !find_celerities();
   sheets_.kernels().face(p);
   return is_one ||
          std::all_of(p.material, p.material + p.count, [&](int its) { return its == p.material[0]; });
+}
+
+// As boost_by() has them; false if lanes cannot go along with any.
+bool SheetShader::find_celerities() {
+  PointSheet& p = work_.points;
+  bool slow = true;
+  for (int i = 0; i < p.padded; ++i) {
+    const Vec3 velocity{p.points.velocity[0][i], p.points.velocity[1][i], p.points.velocity[2][i]};
+    const double speed = glm::length(velocity);
+    p.gamma[i] = 1.0 / std::sqrt((1.0 - speed) * (1.0 + speed));
+    put(p.gamma[i] * velocity, p.celerity, i);
+    p.own[i] = p.own_inside[i] = -1.0;
+    slow = slow && !(p.gamma[i] > robust_gamma);
+  }
+  return slow;
 }
 
 void SheetShader::fill_strength(const Light& light) {
@@ -198,6 +242,7 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
   reflection.brightness = lane_brightness(effects.brightness);
   reflection.distant = light.kind == LightKind::distant;
   reflection.gamma = tracer_.hub().lights[index].to_frame[frame()].gamma();
+  put_way(tracer_.hub().lights[index].to_frame[frame()], reflection.way);
   reflection.specular =
       material.specular <= 0.0 ? 0.0 : material.specular * (material.shininess + 2.0) / (2.0 * pi);
   reflection.shininess = material.shininess;
@@ -227,8 +272,8 @@ void SheetShader::shade_sky(const SheetRays& rays, std::uint64_t lanes, const Ef
     }
     put(colour, p.rgb, lane);
   }
-  const double gamma = tracer_.hub().frames[frame].from_camera.gamma();
-  sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, shifted, p);
+  p.moves = false;
+  sheets_.kernels().carry(carriage(tracer_.hub().frames[frame], effects, shifted), p);
 }
 
 void SheetShader::shade(const Effects& effects) {
@@ -257,8 +302,7 @@ void SheetShader::shade(const Effects& effects) {
     sheets_.kernels().add_light(reflection, p);
   }
   for (int k = 0; k < 3 && first; ++k) std::fill_n(p.rgb[k], p.padded, own[k]);
-  const double gamma = tracer_.hub().frames[frame()].from_camera.gamma();
-  sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, shifted, p);
+  sheets_.kernels().carry(carriage(tracer_.hub().frames[frame()], effects, shifted), p);
 }
 
 }  // namespace backlight

@@ -79,12 +79,15 @@ class SheetShader {
 
   /// Whether lanes can light the points; else they are left to the law.
   [[nodiscard]] bool in_lanes() const {
-    return sheets_.lit_in_lanes(entry_->frame) &&
+    return sheets_.lit_in_lanes(entry_->frame, *effects_) &&
            !sheets_.goes_singly(sheets_.numbered(work_.points.runs[0].surface).group);
   }
 
   /// Finds the points themselves. False: they are of several materials, as of a solid's members.
   bool resolve();
+
+  /// Whether the matter of a point that was found is too fast for lanes in its frame.
+  [[nodiscard]] bool is_too_fast() const { return too_fast_; }
 
   /// The colours of work.points, of one material, into points.rgb.
   void shade(const Effects& effects);
@@ -100,6 +103,7 @@ class SheetShader {
 
  private:
   [[nodiscard]] const LaneLamp& lane_lamp(std::size_t light, int frame) const;
+  bool find_celerities();
   void fill_strength(const Light& light);
   void fill_diffuse(std::size_t light, int material, LaneReflection& reflection);
   // Shadows (tile_shadows.cpp):
@@ -136,6 +140,7 @@ class SheetShader {
   const Entry* entry_ = nullptr;  // of whose frame the points are
   int sheet_ = -1;                // their number in the tile
   const Effects* effects_ = nullptr;
+  bool too_fast_ = false;
 };
 
 LaneBrightness lane_brightness(const BrightnessSwitches& on);

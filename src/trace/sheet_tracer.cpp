@@ -210,12 +210,14 @@ class SheetPainter {
   // The colours of the points gathered.
   void paint_points(const Effects& effects) {
     const PointSheet& p = work_.points;
-    if (!shader_.in_lanes()) {
+    const bool lanes = shader_.in_lanes();
+    const bool one_material = lanes && shader_.resolve();
+    if (!lanes || shader_.is_too_fast()) {
       for (int i = 0; i < p.count; ++i) {
         const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
         one_ray(sheet, p.lane[i] % sheet_size, shader_.hit(i));
       }
-    } else if (shader_.resolve() || !colours_) {
+    } else if (one_material || !colours_) {
       if (colours_) shader_.shade(effects);
       put_colours();
     } else {
