@@ -5,6 +5,7 @@
 
 #include "compile_motion.h"
 #include "motion_levels.h"
+#include "speed_proof.h"
 #include "words.h"
 
 namespace backlight {
@@ -89,6 +90,13 @@ bool ride(Compilation& c, const TableView& camera) {
           key, std::string("a camera aboard an object moves with that, and has no '") + key + "' besides");
     }
   }
+  if (const Node* place = camera.node_of("position");
+      place != nullptr && uses_time(c.values.description, *place)) {
+    camera.error(
+        "position", "aboard, the camera is fixed in one place, and 'position' may not depend on t",
+        "image_time instead of t puts it somewhere else for each image; what walks about can be an object, "
+        "and the camera aboard that");
+  }
   std::vector<std::string> names;
   const Node* node = object_called(c, camera.text("aboard"), names);
   if (node == nullptr) {
@@ -112,7 +120,9 @@ bool ride(Compilation& c, const TableView& camera) {
   const MatterMotion::Body body = body_of({level});
   const MatterMotion motion(body, sphere(1.0), std::nullopt, {1.0 / c.scene.c, true});
   const double time = time_of_exposure(camera, motion, body, point, base, c.scene.c);
-  const Passenger here = at_time(body, point, time / c.scene.c, c.scene.c);
+  // Faster than light it has no own time.
+  const double when = std::isfinite(time) ? time : c.scene.c * camera.number("time");
+  const Passenger here = at_time(body, point, when / c.scene.c, c.scene.c);
   const double speed = glm::length(here.velocity);
   if (!(speed < 1.0) || !std::isfinite(time)) {
     camera.error("position", "aboard, the camera would have |velocity| = " + number_text(speed * c.scene.c) +

@@ -62,8 +62,8 @@ std::optional<Expression> body_formula(Compilation& c, const TableView& table, c
       if (!is_infinite(shape)) return formula_of(shape);
       [[fallthrough]];
     case ShapeKind::plane:
-      table.error("shape", "a surface without bounds can turn about its own axis, and not move otherwise",
-                  "a box or a disk of the size that is seen can");
+      table.error("shape", "a surface without bounds cannot move: far away it would be faster than light",
+                  "a disk or a box of the size that is seen can");
       return std::nullopt;
     case ShapeKind::implicit: {
       const Vec3 low{v[0], v[1], v[2]};

@@ -30,6 +30,28 @@ bool place_uses_time(const Description& description, const Node& table) {
                              [&](const Node& part) { return place_uses_time(description, part); });
 }
 
+/// Matter that flows together has no velocity of its parts: whether a table's blends are at rest in
+/// themselves.
+bool blends_move_as_a_whole(Compilation& c, const TableView& table) {
+  if (table.node_of("part") == nullptr || table.node_of("part")->array() == nullptr) return true;
+  bool good = true;
+  for (const Node& node : *table.node_of("part")->array()) {
+    const TableView part(c.values, &node, *find_table("object.part"));
+    good = blends_move_as_a_whole(c, part) && good;
+    if (!table.has_valid("blend")) continue;
+    for (const std::string_view key : {"position", "rotate", "scale"}) {
+      const Entry* entry = find(node, key);
+      if (entry == nullptr || !uses_time(c.values.description, entry->node)) continue;
+      part.error(key,
+                 "the parts of a blend cannot move against each other: where they flow together, the matter "
+                 "is no one's",
+                 "the whole can move; image_time instead of t puts a part somewhere else for each image");
+      good = false;
+    }
+  }
+  return good;
+}
+
 /// About the body's origin.
 MatterMotion::Ball ball_of(const MatterMotion::Body& body, const SpeedProof& proof, double radius, double c) {
   MatterMotion::Ball ball{{}, radius, proof.centre_speed, proof.begins * c};
@@ -97,6 +119,7 @@ class MotionCompiler {
       : c_(c), object_(object), prover_(c, frame) {}
 
   std::optional<MovingShape> put_in_motion(const Shape& shape, const SolidTree* solid, const Vec3& offset) {
+    if (!blends_move_as_a_whole(c_, object_)) return std::nullopt;
     MotionLevel whole = level_of(object_);
     if (has_motion(object_)) whole.position = constant_formulas(Vec3{0.0});
     const std::size_t errors = c_.values.diagnostics.error_count();
@@ -168,13 +191,12 @@ class MotionCompiler {
     const auto proof = prover_.prove(in_motion, levels, hull_of(shape), offset_);
     if (!proof) return std::nullopt;
     const MatterMotion::Body body = body_of(levels);
-    const MatterMotion::Ball ball =
-        ball_of(body, *proof, one.bounds(0).radius * stretch_of(levels, times_of(*proof)) * (1.0 + 1e-12),
-                c_.scene.c);
+    const Interval times = times_of(*proof);
+    const double radius = one.bounds(0).radius * stretch_of(levels, times.lower, times.upper);
+    const MatterMotion::Ball ball = ball_of(body, *proof, radius * (1.0 + 1e-12), c_.scene.c);
     Vec3 low{0.0}, high{0.0};
     bool rests = std::isinf(ball.begins);
     const Reach box = box_of(shape);
-    const Interval times = times_of(*proof);
     for (std::size_t i = 0; i < 3; ++i) {
       const int k = static_cast<int>(i);
       const Interval path = over_times(ball.path[i], times.lower, times.upper).value;
@@ -210,20 +232,6 @@ class MotionCompiler {
     return implicit(moved, low, high, options);
   }
 
-  /// How much at most a body is stretched.
-  double stretch_of(const std::vector<MotionLevel>& levels, const Interval& times) const {
-    double stretch = 1.0;
-    for (const MotionLevel& level : levels) {
-      double largest = 0.0;
-      for (const Expression& scale : level.scale) {
-        const Interval range = over_times(scale, times.lower, times.upper).value;
-        largest = std::max({largest, std::abs(range.lower), std::abs(range.upper)});
-      }
-      stretch *= largest;
-    }
-    return stretch;
-  }
-
   /// For which it is proved.
   [[nodiscard]] Interval times_of(const SpeedProof& proof) const {
     if (std::isinf(proof.begins)) return {-always, always, Continuity::continuous};
@@ -239,7 +247,8 @@ class MotionCompiler {
 
 std::array<Expression, 3> formulas_of(const TableView& table, std::string_view key, const Vec3& now) {
   const Node* node = table.node_of(key);
-  if (node == nullptr || !uses_time(table.values().description, *node)) return constant_formulas(now);
+  const bool sound = node != nullptr && table.is_sound(key);  // else it has been reported
+  if (!sound || !uses_time(table.values().description, *node)) return constant_formulas(now);
   std::array<Expression, 3> formulas;
   for (std::size_t i = 0; i < 3; ++i) {
     const NodeArray* three = node->array();
@@ -277,6 +286,18 @@ MatterMotion::Time clock_of(const Compilation& c) {
   const bool shown = std::ranges::find(aovs, "properTime") != aovs.end();
   return {1.0 / c.scene.c,
           shown || lives_by_own_time(c.values.description, c.values.description.root, false)};
+}
+
+void check_motions_apart(const TableView& thing, const ExtendedVec3& celerity) {
+  if (celerity == ExtendedVec3{} || thing.node() == nullptr) return;
+  for (const char* key : {"position", "rotate", "scale"}) {
+    const Entry* written = find(*thing.node(), key);
+    if (written == nullptr || !uses_time(thing.values().description, written->node)) continue;
+    thing.error(
+        key, std::string("a thing moves by a velocity or by formulas of t in '") + key + "', not by both",
+        "define a [frame.NAME] with this velocity, and let it move in that; image_time instead of t puts it "
+        "somewhere else for each image");
+  }
 }
 
 bool is_in_motion(const TableView& thing) {

@@ -98,14 +98,36 @@ double turning_speed(const MotionLevel& level, const Sizes& rotate, std::vector<
   return speed;
 }
 
-/// Of the point with least ξ, at a time of the frame; 1 where there is none that can fly so.
-double flight_speed(const RocketFlight& rocket, const std::vector<HullBall>& hull, double time) {
+/// The least ξ of a hull.
+double least_distance(const RocketFlight& rocket, const std::vector<HullBall>& hull) {
   double least = infinity;
   for (const HullBall& ball : hull) {
     least = std::min(least, 1.0 / rocket.acceleration + glm::dot(ball.centre, rocket.along) - ball.radius);
   }
+  return least;
+}
+
+/// Of the point with least ξ, at a time of the frame; 1 where there is none that can fly so.
+double flight_speed(const RocketFlight& rocket, const std::vector<HullBall>& hull, double time) {
+  const double least = least_distance(rocket, hull);
   const double way = rocket.c * time;
   return least > 0.0 ? way / std::hypot(least, way) : 1.0;
+}
+
+/// Whether no light of a body in flight, before a time (all times in lengths) when it was in `ball`, gets to
+/// the origin at the time `last`. `start`: the place from which ξ = 1/a is counted. Along the thrust the body
+/// is contracted.
+bool is_seen_later_of(const RocketFlight& rocket, const Vec3& start, const HullBall& ball, double time,
+                      double last) {
+  const double horizon =
+      1.0 / rocket.acceleration - glm::dot(start, rocket.along);  // ξ of the origin at time 0
+  if (horizon + last <= 0.0) return true;                         // no light of it at all
+  const double along = glm::dot(ball.centre, rocket.along);
+  const double aside = glm::length(ball.centre - along * rocket.along) + ball.radius;
+  const double ahead = along + horizon;
+  const double front = std::sqrt(std::max(0.0, (ahead - time) * (ahead + time))) + ball.radius;
+  const double half_length = ball.radius * front / std::hypot(front, time);
+  return std::hypot(std::abs(along) + half_length, aside) < last - time;
 }
 
 struct Speeds {
@@ -165,6 +187,12 @@ void add_cells(const ImplicitFormula& f, const Vec3& low, const Vec3& high, int 
 }
 
 }  // namespace
+
+double stretch_of(const std::vector<MotionLevel>& levels, double from, double to) {
+  double stretch = 1.0;
+  for (const MotionLevel& level : levels) stretch *= largest(sizes_of(level.scale, from, to).value);
+  return stretch;
+}
 
 IntervalSlope over_times(const Expression& formula, double from, double to) {
   constexpr std::array<double, 4> origin{};
@@ -238,19 +266,30 @@ SpeedProver::SpeedProver(Compilation& c, int frame) : c_(c) {
 
 std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::vector<MotionLevel>& levels,
                                              const std::vector<HullBall>& hull, const Vec3& offset) const {
-  const std::array<double, 4> now{0.0, 0.0, 0.0, last_};
   const MatterMotion::Body body = body_of(levels);
-  const Vec3 here =
-      offset + Vec3{body.place[0].evaluate(now), body.place[1].evaluate(now), body.place[2].evaluate(now)};
   const double c = c_.scene.c;
-  const double distance = (glm::length(camera_ - here) + farthest(hull)) / c;
+  const auto body_at = [&](double time) {
+    const std::array<double, 4> origin{0.0, 0.0, 0.0, time};
+    Vec3 here = offset;
+    for (int i = 0; i < 3; ++i) here[i] += body.place[static_cast<std::size_t>(i)].evaluate(origin);
+    return HullBall{here - camera_, farthest(hull) * stretch_of(levels, time, last_)};
+  };
+  const std::optional<RocketFlight>& rocket = levels.front().rocket;
+  const Vec3 start = offset + constants_of(levels.front().position).value_or(Vec3{0.0}) - camera_;
+  // What was inside the past light cone then, with a speed below that of light since, was so ever before.
+  const auto is_seen_later = [&](double time) {
+    return rocket ? is_seen_later_of(*rocket, start, body_at(time), c * time, c * last_)
+                  : farthest({body_at(time)}) < c * (last_ - time);
+  };
   // Shadows are thrown by what was there before it is seen.
-  const double reach = 16.0 * distance;
-  const SpeedProof proof = prove_speed(levels, hull, c, last_, reach);
-  if (std::isinf(proof.begins) || proof.begins <= last_ - reach) return proof;
-  // As early can light have left it that reaches the camera now.
-  const double seen = distance / (1.0 - std::min(proof.speed, 0.999));
-  if (proof.begins < last_ - 1.000001 * seen) return proof;
+  const double reach = 16.0 * farthest({body_at(last_)}) / c;
+  const auto is_enough = [&](double time) {
+    constexpr double of_shadows = 4.0;
+    constexpr double longest = 1000.0;  // what is seen from a thousand times as far is a point at most
+    return is_seen_later(last_ - (last_ - time) / of_shadows) || (!rocket && time < last_ - longest * reach);
+  };
+  const SpeedProof proof = prove_speed(levels, hull, c, last_, reach, is_enough);
+  if (std::isinf(proof.begins) || proof.begins <= last_ - reach || is_seen_later(proof.begins)) return proof;
   const char* key = "position";
   for (const char* written : {"scale", "rotate", "position"}) {
     if (table.node_of(written) != nullptr && uses_time(c_.values.description, *table.node_of(written)))
@@ -274,14 +313,14 @@ bool uses_time(const Description& description, const Node& node) {
 }
 
 SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector<HullBall>& hull, double c,
-                       double last, double reach) {
+                       double last, double reach, const std::function<bool(double)>& is_enough) {
   const auto below = [](const Speeds& its) { return its.body < 1.0; };
   if (const Speeds all = speeds(levels, hull, c, -always, always); below(all)) return {all.body, all.centre};
   SpeedProof proof;
   proof.begins = last;
   constexpr int most_pieces = 40'000;
   double length = reach / 64.0;
-  for (int i = 0; i < most_pieces && proof.begins > last - reach; ++i) {
+  for (int i = 0; i < most_pieces && (proof.begins > last - reach || !is_enough(proof.begins)); ++i) {
     const double from = proof.begins - length;
     const Speeds piece = speeds(levels, hull, c, from, proof.begins);
     if (below(piece)) {
@@ -292,7 +331,7 @@ SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector
     } else {
       proof.speed_before = piece.body;
       length *= 0.5;
-      if (!(length > 1e-9 * reach)) break;
+      if (!(length > (proof.begins > last - reach ? 1e-9 : 1e-4) * reach)) break;
     }
   }
   return proof;

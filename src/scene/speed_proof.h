@@ -1,6 +1,7 @@
 // That nothing of a body in motion reaches the speed of light: docs/physics.md equation (26).
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -53,10 +54,13 @@ class SpeedProver {
 /// Whether a value as written depends on t.
 bool uses_time(const Description& description, const Node& node);
 
-/// Proved backwards from `last`: as far as it is below the speed of light, or until nothing of it could be
-/// seen in a picture of things within `reach` seconds.
+/// Proved backwards from `last`: as far as it is below the speed of light, or for `reach` seconds at least
+/// and until `is_enough` of a time.
 SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector<HullBall>& hull, double c,
-                       double last, double reach);
+                       double last, double reach, const std::function<bool(double)>& is_enough);
+
+/// How much at most a body is stretched at times in [from, to].
+double stretch_of(const std::vector<MotionLevel>& levels, double from, double to);
 
 /// Bounds on a formula of t alone for times in [from, to], and on its rate.
 IntervalSlope over_times(const Expression& formula, double from, double to);

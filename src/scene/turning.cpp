@@ -59,7 +59,6 @@ bool turns_in_itself(const Shape& shape, const std::vector<MotionLevel>& levels)
     case ShapeKind::cone:
     case ShapeKind::torus:
     case ShapeKind::disk:
-    case ShapeKind::plane:
       return is_small(glm::length(glm::cross(axis, m[1])) / y);
     default:
       return false;

@@ -16,7 +16,7 @@ std::vector<MotionLevel> at_rest(std::vector<MotionLevel> levels);
 std::optional<Placement> placement_at_rest(const std::vector<MotionLevel>& levels);
 
 /// Whether all that moves is one angle, and the shape with all that is within it is a surface of revolution
-/// about that axis (a plane about its normal, a sphere about any line through its centre).
+/// about that axis (a sphere about any line through its centre).
 bool turns_in_itself(const Shape& shape, const std::vector<MotionLevel>& levels);
 
 }  // namespace backlight

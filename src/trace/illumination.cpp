@@ -6,23 +6,32 @@
 namespace backlight {
 
 LampMoment way_to_moving(const Light& light, const Vec3& place, double event_time) {
+  constexpr int most_steps = 200;
+  constexpr double long_ago = 1e8;  // in ways from where it is at the event: longer ago, h is rounding
   const MatterMotion& motion = *light.motion;
   double low = -std::numeric_limits<double>::infinity();
   double high = event_time;
+  double farthest = 0.0;
   LampMoment moment;
   moment.time = event_time;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < most_steps; ++i) {
     const MatterMotion::Centre lamp = motion.centre(moment.time);
     const Vec3 way = lamp.place - place;
     moment.direction = {way, glm::length(way)};
     moment.velocity = lamp.velocity;
     const double length = moment.direction.length;
-    const double late = (event_time - moment.time) - length;
+    if (i == 0) farthest = long_ago * length;
+    const double ago = event_time - moment.time;
+    const double late = ago - length;
     if (late == 0.0 || length == 0.0) break;
     (late > 0.0 ? low : high) = moment.time;
     double next = moment.time + late / (1.0 + glm::dot(way, lamp.velocity) / length);
-    if (!(next > low && next < high)) {
-      next = std::isfinite(low) ? 0.5 * low + 0.5 * high : moment.time - 2.0 * std::abs(late);
+    if (std::isfinite(low)) {
+      if (!(next > low && next < high)) next = 0.5 * low + 0.5 * high;
+    } else {
+      const double earliest = moment.time - 3.0 * ago - 2.0 * length;
+      if (!(next >= earliest && next < high)) next = earliest;
+      if (event_time - next > farthest) return {{Vec3{0.0}, 0.0}, event_time};
     }
     if (next == moment.time) break;
     moment.time = next;
@@ -147,6 +156,7 @@ std::optional<Arrival> arrival(const Hub& hub, RayInFrames& rays, const SeenPoin
                                const LightView& view) {
   const Light& light = *view.light;
   const WayToLight way = way_to_light(hub, rays, point, light);
+  if (!(way.direction.length > 0.0)) return std::nullopt;
   Arrival a;
   a.segment.direction = way.direction;
   a.emission_time = way.emission_time;

@@ -35,9 +35,10 @@ double gamma_between(const SeenPoint& point, const LorentzTransform<Rest, From>&
 SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit);
 
 /// When a lamp on a path sent the light that arrives at an event: docs/physics.md equation (29). All in the
-/// lamp's base frame.
+/// lamp's base frame. A lamp that was as fast as light ever longer ago, as a rocket's was, has not lit some
+/// events yet.
 struct LampMoment {
-  NullDirection<Source> direction;  ///< from the event to the lamp
+  NullDirection<Source> direction;  ///< from the event to the lamp; of no length: it has not lit it yet
   double time = 0.0;
   Vec3 velocity{0.0};  ///< the lamp's
 

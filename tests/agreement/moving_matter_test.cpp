@@ -1,0 +1,149 @@
+// Matter and lamps in motion: sheets of rays, threads and crops against one ray at a time. The same bits, or
+// it is a defect.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+
+#include "rendering.h"
+
+namespace backlight::test {
+namespace {
+
+const char* const aovs =
+    "aovs = [\"Z\", \"doppler\", \"emissionTime\", \"properTime\", \"P\", \"N\", \"objectId\", "
+    "\"unresolved\", \"light\"]\n";
+
+// What turns in itself, swings, flies, flows, comes and goes, and solids of such parts; over things at rest.
+std::string all_there_is(const std::string& camera) {
+  return std::string("[film]\nresolution = [46, 34]\n") + aovs +
+         "[camera]\nposition = [0, 1.5, -7]\nlook_at = [0, 0.4, 0]\nfov = 55\n" + camera + R"toml(
+[frame.tram]
+beta = [0.4, 0, 0.3]
+origin = [2, 0.5, 2]
+[[light]]
+position = [3, 6, -3]
+intensity = 90
+[[light]]
+position = ["-3 + 0.5*sin(t)", "3 + 0.4*t", "-2 + 0.5*cos(t)"]
+intensity = "40*(1.3 + sin(5*t))"
+temperature = 4000
+[[light]]
+position = [-1, 0, -2]
+intensity = 20
+frame = "tram"
+rocket = { acceleration = 0.4, along = [0, 1, 1] }
+[[light]]
+type = "distant"
+direction = [1, -2, 1]
+[[object]]
+shape = "plane"
+position = [0, -1.5, 0]
+[[object]]
+shape = "box"
+size = [2, 1, 1]
+position = [-2, 0.2, 1]
+rotate = ["10*t", "20*t", "15*sin(t)"]
+material = { checker = { colors = [[0.9, 0.2, 0.2], [0.2, 0.2, 0.9]], size = 0.25 }, specular = 0.4 }
+[[object]]
+shape = "cylinder"
+radius = 0.7
+height = 1.2
+position = [2, 0, 1]
+rotate = [0, "60*t", 20]
+material = { checker = { colors = [[0.9, 0.9, 0.2], [0.2, 0.2, 0.2]], size = 0.125 } }
+repeat = { count = [2, 1, 2], step = [1.7, 0, 1.5] }
+[[object]]
+shape = "sphere"
+radius = 0.5
+position = ["sin(0.6*t)", "1.5 + 0.3*cos(t)", 0]
+visible = "sin(7*t) + 0.2"
+[[object]]
+shape = "torus"
+major = 0.6
+minor = 0.25
+position = [-0.5, -0.5, -1]
+frame = "tram"
+rocket = { acceleration = 0.2, along = [0, 1, 0.4] }
+[[object]]
+shape = "difference"
+position = [0, "0.3*sin(t)", 2]
+material = { color = [0.3, 0.8, 0.4] }
+[[object.part]]
+shape = "box"
+size = [1.4, 1.4, 1.4]
+[[object.part]]
+shape = "sphere"
+radius = 0.6
+position = ["0.6*cos(0.5*t)", "0.6*sin(0.5*t)", -0.7]
+material = { color = [0.9, 0.5, 0.1] }
+[[object]]
+shape = "union"
+blend = 0.3
+position = ["-3.5 + 0.2*t", 1.6, 1]
+[[object.part]]
+shape = "sphere"
+radius = 0.5
+[[object.part]]
+shape = "box"
+size = [0.5, 1, 0.5]
+position = [0.4, 0.2, 0]
+[[object]]
+shape = "implicit"
+f = "x^2 + y^2 + z^2 - 0.3 - 0.1*sin(t)"
+bounds = [[-1, -1, -1], [1, 1, 1]]
+position = [1.5, 1.7, 0]
+matter_velocity = ["0.2*x", "0.2*y", "0.2*z"]
+)toml";
+}
+
+void expect_same_bits(const Rendering& a, const Rendering& b, const PixelBox& where) {
+  const auto& channels = a.image.layout().channels;
+  int off = 0;
+  for (std::size_t channel = 0; channel < channels.size(); ++channel) {
+    for (int y = where.y0; y < where.y1; ++y) {
+      for (int x = where.x0; x < where.x1; ++x) {
+        const float one = a.image.at(channel, x, y), other = b.image.at(channel, x, y);
+        if (std::bit_cast<std::uint32_t>(one) == std::bit_cast<std::uint32_t>(other)) continue;
+        if (++off < 4)
+          ADD_FAILURE() << channels[channel].name << ' ' << x << ' ' << y << ": " << one << ", " << other;
+      }
+    }
+  }
+  EXPECT_EQ(off, 0);
+}
+
+class MovingMatterInSheets : public testing::TestWithParam<std::pair<const char*, std::vector<std::string>>> {
+};
+
+TEST_P(MovingMatterInSheets, IsTheLaw) {
+  RenderChoices choices;
+  choices.overrides = GetParam().second;
+  const std::string scene = all_there_is(GetParam().first);
+  const Rendering sheets = render_text(scene, choices);
+  choices.path = RayPath::one_by_one;
+  const PixelBox all = sheets.image.layout().data;
+  expect_same_bits(sheets, render_text(scene, choices), all);
+  choices.path = RayPath::sheets;
+  choices.threads = 1;
+  choices.instructions = InstructionSet::baseline;
+  expect_same_bits(sheets, render_text(scene, choices), all);
+  choices.threads = 5;
+  choices.crop = PixelBox{7, 11, 32, 26};
+  expect_same_bits(sheets, render_text(scene, choices), *choices.crop);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cameras, MovingMatterInSheets,
+    testing::Values(std::pair{"", std::vector<std::string>{}},
+                    std::pair{"beta = [0.2, 0.1, 0.5]\ntime = 1.5\n", std::vector<std::string>{}},
+                    std::pair{"gamma = 60\nalong = [0.1, 0, -1]\n", std::vector<std::string>{}},
+                    std::pair{"", std::vector<std::string>{"effects={ doppler = false }"}},
+                    std::pair{"beta = [0, 0, 0.4]\n",
+                              std::vector<std::string>{"effects={ light_delay = false }"}},
+                    std::pair{"projection = \"equirectangular\"\nstereo = { separation = 0.3 }\n",
+                              std::vector<std::string>{}},
+                    std::pair{"projection = \"fisheye\"\n", std::vector<std::string>{"film.samples=3"}}));
+
+}  // namespace
+}  // namespace backlight::test
