@@ -128,9 +128,9 @@ sheet bell-rockets bell-rockets 1-37x12 2 -r 360x131 -s 4
 figure rindler-bow rindler-rocket -r 360x263 --camera bow
 figure rindler-stern rindler-rocket -r 360x263 --camera stern
 sheet clock-dice clock-dice 1-25x12 1 -r 720x270
-sheet light-clock light-clock 13-49x12 2 -r 360x203
-sheet ladder-barn ladder-barn 15,25,35 3 -r 240x135 --camera road
-sheet ladder-barn-aboard ladder-barn 4,25,45 3 -r 240x135 --camera ladder
+sheet light-clock light-clock 19-43x8 2 -r 360x203
+sheet ladder-barn ladder-barn 5,15,25,35 2 -r 360x203 --camera road
+sheet ladder-barn-aboard ladder-barn 4,18,32,45 2 -r 360x203 --camera ladder
 
 for name in "${wanted[@]}"; do
   case " ${known[*]} " in
