@@ -9,6 +9,7 @@
 
 #include "backlight/base/lane_exponential.h"
 #include "backlight/colour/spectrum.h"
+#include "light_kernels.h"
 #include "light_samples.h"
 #include "planck.h"
 #include "room.h"
@@ -17,18 +18,8 @@
 namespace backlight {
 namespace {
 
-// Greater powers of e would leave no room for what a strength, a distance and D make of them.
-constexpr double greatest_log = 600.0;
-
 double exponential_of(double x) {
   return exponential(Lanes<2>(x)).value().v[0];
-}
-
-template <class T>
-T hermite(const T& low, const T& low_slope, const T& high, const T& high_slope, double t) {
-  const double u = 1.0 - t;
-  return u * u * (1.0 + 2.0 * t) * low + t * t * (3.0 - 2.0 * t) * high +
-         t * u * (u * low_slope - t * high_slope);
 }
 
 // The first 16 bits of a float, rounded, and what they say.
@@ -148,6 +139,11 @@ double log_scale_of(const LightRows::Place& place) {
 Spectrum LightRows::blackbody(double kelvin) {
   const Place place = place_of_body(std::max(kelvin, planck::coldest_kelvin));
   return Spectrum::planckian(kelvin, log_scale_of(place) + std::log(luminance(place.film())));
+}
+
+std::uint64_t LightRows::films(const Spectrum& light, const double* shift, std::uint64_t points,
+                               double* const (&film)[4], const SpectralKernels& kernels) {
+  return kernels.films(light.form(), daylight_row_table, body_row_table, shift, points, film);
 }
 
 LightRows::Place LightRows::body(double kelvin, double log_divisor, double scale) const {

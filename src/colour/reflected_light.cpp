@@ -1,8 +1,9 @@
 #include "backlight/colour/reflected_light.h"
 
+#include <algorithm>
 #include <bit>
 
-#include "backlight/base/lanes.h"
+#include "light_kernels.h"
 #include "room.h"
 
 namespace backlight {
@@ -15,9 +16,6 @@ constexpr int bits_below_node = 45;
 constexpr std::size_t node_places = 1024;
 constexpr std::size_t cell_places = 128;
 
-// Below, light falls so steeply towards the blue that it is not followed well from node to node.
-constexpr double coldest_kelvin = 1000.0;
-
 double node_at(std::uint64_t index) {
   return std::bit_cast<double>(index << bits_below_node);
 }
@@ -26,7 +24,7 @@ double node_at(std::uint64_t index) {
 
 bool ReflectedLight::has(const LightRows::Place& place) {
   return place.family == LightRows::Family::daylight ||
-         (place.family == LightRows::Family::bodies && place.at >= coldest_kelvin);
+         (place.family == LightRows::Family::bodies && place.at >= coldest_followed_kelvin);
 }
 
 std::size_t ReflectedLight::Key::place(std::size_t places) const {
@@ -45,36 +43,23 @@ ReflectedLight::Axis ReflectedLight::nodes_around(double doppler, bool is_node) 
 }
 
 // For Lagrange's polynomials.
-void ReflectedLight::prepare(const Axis& axis, double (&node)[order], double (&divisor)[order]) {
+LightCell::Axis ReflectedLight::prepared(const Axis& axis) {
+  LightCell::Axis result{axis.count, {}, {}};
   for (int i = 0; i < axis.count; ++i) {
     double product = 1.0;
     for (int k = 0; k < axis.count; ++k) {
       if (k != i) product *= axis.node[i] - axis.node[k];
     }
-    node[i] = axis.node[i];
-    divisor[i] = 1.0 / product;
+    result.node[i] = axis.node[i];
+    result.divisor[i] = 1.0 / product;
   }
+  return result;
 }
 
-void ReflectedLight::fill_shares(const double (&node)[order], const double (&divisor)[order], int count,
-                                 double at, double (&share)[order]) {
-  if (count == 1) {
-    share[0] = 1.0;
-    return;
-  }
-  const double a = at - node[0], b = at - node[1], c = at - node[2], d = at - node[3];
-  share[0] = b * (c * d) * divisor[0];
-  share[1] = a * (c * d) * divisor[1];
-  share[2] = a * b * d * divisor[2];
-  share[3] = a * b * c * divisor[3];
-}
-
-void ReflectedLight::fill(Cell& cell, const Pair& pair, const Axis& axis, const Axis& lamp,
+void ReflectedLight::fill(LightCell& cell, const Pair& pair, const Axis& axis, const Axis& lamp,
                           const SpectralKernels& kernels) {
-  cell.count = axis.count;
-  cell.lamp_count = lamp.count;
-  prepare(axis, cell.node, cell.divisor);
-  prepare(lamp, cell.lamp_node, cell.lamp_divisor);
+  cell.camera = prepared(axis);
+  cell.lamp = prepared(lamp);
   const auto size = static_cast<std::size_t>(pair.set->size());
   for (std::vector<double>* room : {&wavelengths_, &values_, &work_}) {
     if (room->size() < size) room->resize(size);
@@ -98,13 +83,13 @@ void ReflectedLight::fill(Cell& cell, const Pair& pair, const Axis& axis, const 
                                                   sampled ? &values : nullptr, work_.data(), kernels)};
       }
       for (int c = 0; c < 3; ++c) cell.colour[k][i][c] = node.colour[c];
-      cell.colour[k][i][3] = 0.0;
     }
   }
 }
 
-LinearRgb ReflectedLight::per_luminance(const Pair& pair, double doppler, double lamp_doppler,
-                                        bool one_lamp_doppler, const SpectralKernels& kernels) {
+void ReflectedLight::per_luminance(const Pair& pair, const double* doppler, const double* lamp_doppler,
+                                   bool one_lamp_doppler, const double* factor, std::uint64_t points,
+                                   double* const (&colour)[3], const SpectralKernels& kernels) {
   if (cells_.empty()) {
     nodes_.reserve(node_places);
     cells_.reserve(cell_places);
@@ -113,27 +98,31 @@ LinearRgb ReflectedLight::per_luminance(const Pair& pair, double doppler, double
     nodes_.resize(node_places);
     cells_.resize(cell_places);
   }
-  const Axis axis = nodes_around(doppler, false), lamp = nodes_around(lamp_doppler, one_lamp_doppler);
-  const Key key{pair.number, axis.key, lamp.key};
-  Cell& cell = cells_[key.place(cell_places)];
-  if (cell.key != key) {
-    fill(cell, pair, axis, lamp, kernels);
-    cell.key = key;
-  }
-  double share[order], lamp_share[order];
-  fill_shares(cell.node, cell.divisor, cell.count, doppler, share);
-  fill_shares(cell.lamp_node, cell.lamp_divisor, cell.lamp_count, lamp_doppler, lamp_share);
-  Lanes<2> red_green = 0.0, blue = 0.0;
-  for (int k = 0; k < cell.lamp_count; ++k) {
-    Lanes<2> along_red_green = 0.0, along_blue = 0.0;
-    for (int i = 0; i < cell.count; ++i) {
-      along_red_green = along_red_green + Lanes<2>(share[i]) * Lanes<2>::load(cell.colour[k][i]);
-      along_blue = along_blue + Lanes<2>(share[i]) * Lanes<2>::load(cell.colour[k][i] + 2);
+  while (points != 0) {
+    const int first = std::countr_zero(points);
+    const Axis axis = nodes_around(doppler[first], false);
+    const Axis lamp = nodes_around(lamp_doppler[first], one_lamp_doppler);
+    const Key key{pair.number, axis.key, lamp.key};
+    Cell& cell = cells_[key.place(cell_places)];
+    if (cell.key != key) {
+      fill(cell.light, pair, axis, lamp, kernels);
+      cell.key = key;
     }
-    red_green = red_green + Lanes<2>(lamp_share[k]) * along_red_green;
-    blue = blue + Lanes<2>(lamp_share[k]) * along_blue;
+    points &= ~kernels.between_nodes(cell.light, doppler, lamp_doppler, factor, points, colour);
+    points &= ~(std::uint64_t{1} << first);  // not a number is in no cell
   }
-  return {red_green.v[0], red_green.v[1], blue.v[0]};
+}
+
+LinearRgb ReflectedLight::per_luminance(const Pair& pair, double doppler, double lamp_doppler,
+                                        bool one_lamp_doppler, const SpectralKernels& kernels) {
+  constexpr std::size_t room = 8;
+  double dopplers[room], lamp_dopplers[room], factor[room], colour[3][room]{};
+  std::ranges::fill(dopplers, doppler);
+  std::ranges::fill(lamp_dopplers, lamp_doppler);
+  std::ranges::fill(factor, 1.0);
+  per_luminance(pair, dopplers, lamp_dopplers, one_lamp_doppler, factor, 1, {colour[0], colour[1], colour[2]},
+                kernels);
+  return {colour[0][0], colour[1][0], colour[2][0]};
 }
 
 }  // namespace backlight

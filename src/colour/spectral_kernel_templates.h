@@ -4,6 +4,7 @@
 #include "backlight/base/lane_exponential.h"
 #include "backlight/colour/spectral_kernels.h"
 #include "cie_tables.h"
+#include "light_kernels.h"
 #include "planck.h"
 
 // On a lambda of a kernel: see base/lanes.h.
@@ -374,7 +375,16 @@ struct SpectralKernelsOf {
   }
 
   static constexpr SpectralKernels table(const char* name) {
-    return {name, N, evaluate, film, film_between, film_and_slopes, spline_weights};
+    using Lights = LightKernelsOf<N>;
+    return {name,
+            N,
+            evaluate,
+            film,
+            film_between,
+            film_and_slopes,
+            spline_weights,
+            Lights::films,
+            Lights::between_nodes};
   }
 };
 

@@ -28,15 +28,15 @@ struct Neighbours {
 
 /// The texels on both sides of `coordinate` (finite), of `count` texels.
 Neighbours neighbours(double coordinate, int count, TextureEdge edge) {
-  if (edge == TextureEdge::repeat) {
-    coordinate -= std::floor(coordinate);
-  } else {
+  if (edge == TextureEdge::clamp) {
     coordinate = std::clamp(coordinate, 0.0, 1.0);
+  } else if (!(coordinate >= 0.0 && coordinate < 1.0)) {
+    coordinate -= std::floor(coordinate);
   }
   const double position = coordinate * count - 0.5;  // of texel centres: -0.5 ... count - 0.5
-  const double below = std::floor(position);
-  const int first = static_cast<int>(below);
-  const double weight = position - below;
+  int first = static_cast<int>(position);
+  if (position < first) --first;
+  const double weight = position - first;
   if (edge == TextureEdge::repeat) {
     return {first < 0 ? count - 1 : first, first + 1 >= count ? 0 : first + 1, weight};
   }

@@ -126,9 +126,11 @@ bool ride(Compilation& c, const TableView& camera) {
   view.celerity = base == InertialFrame{} ? celerity : within(base, {celerity, event}).celerity;
   view.event = to_world(base, event);
   view.proper_time = motion.own_time(here.place, time, Mat3(1.0));
-  // The body's axes, carried by the pure boost from its frame, in the camera's, which are carried from the
-  // world's.
-  const Mat3 turn = relative_motion(view.celerity, base.celerity).rotation * here.axes;
+  // The body's axes as its matter measures them, so without the contraction along its way, carried by the
+  // pure boost from its frame; in the camera's, which are carried from the world's.
+  const Vec3 u = celerity.rounded();
+  const Mat3 measured = Mat3(1.0) + glm::outerProduct(u, u) / (1.0 + std::sqrt(1.0 + glm::dot(u, u)));
+  const Mat3 turn = relative_motion(view.celerity, base.celerity).rotation * measured * here.axes;
   Lens& lens = view.lens;
   if (!aim(lens, turn * lens.forward, turn * lens.up)) {
     camera.error("up", "aboard, the stretched axes leave the camera no upward direction");

@@ -104,7 +104,7 @@ bool makes_sense(const TableView& table, std::string_view key, const ImplicitFor
   return true;
 }
 
-// Of x, y, z and t, with the parameters of this image in their places.
+// Of x, y, z and the matter's own t.
 Expression bound(Compilation& c, const Node& written) {
   if (const auto* number = std::get_if<double>(&written.value)) return parsed(number_text(*number), {}, {});
   return in_own_time(c.values, std::get<Expression>(written.value));

@@ -13,7 +13,7 @@ struct Physically {
 };
 
 constexpr std::string_view by_formula =
-    "shape = \"implicit\" with a formula f of t changes its size by its own time";
+    "a scale that is a formula of t stretches its matter, and an implicit surface may have an f of t";
 constexpr std::string_view by_path =
     "a position that is a formula of t is a path, with the velocity that comes of it";
 constexpr std::string_view by_strength =

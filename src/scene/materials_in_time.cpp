@@ -17,15 +17,22 @@ Expression number_in_time(const TableView& table, std::string_view key) {
   return formula ? *formula : constant_formula(table.number(key));
 }
 
-// Whether any component of the two was a formula goes to `changes`.
-std::array<ReflectanceInTime::Rgb, 2> squares_in_time(const TableView& checker, bool& changes) {
+std::array<ReflectanceInTime::Rgb, 2> squares_in_time(const TableView& checker) {
   std::array<ReflectanceInTime::Rgb, 2> colours;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto formulas = checker.vector_in_own_time("colors", i);
-    changes = changes || formulas.has_value();
     colours[i] = formulas ? *formulas : constants(checker.vector_at("colors", i));
   }
   return colours;
+}
+
+// `given`: the key that says what is reflected.
+bool reflectance_changes(const TableView& material, std::string_view given) {
+  if (material.in_own_time("uv") || material.in_own_time("ir")) return true;
+  if (given == "color") return material.vector_in_own_time("color").has_value();
+  if (given != "checker") return false;
+  const TableView checker = material.table("checker", "material.checker");
+  return checker.vector_in_own_time("colors", 0) || checker.vector_in_own_time("colors", 1);
 }
 
 }  // namespace
@@ -37,17 +44,16 @@ std::optional<LobeInTime> read_lobe_in_time(const TableView& material) {
 
 std::optional<ReflectanceInTime> read_reflectance_in_time(const TableView& material, std::string_view given,
                                                           double grey) {
+  if (!reflectance_changes(material, given)) return std::nullopt;
   ReflectanceInTime reflectance;
-  bool changes = material.in_own_time("uv") || material.in_own_time("ir");
-  reflectance.colours[0] = constants(Vec3{grey});
   if (given == "color") {
     const auto formulas = material.vector_in_own_time("color");
-    changes = changes || formulas.has_value();
-    if (changes) reflectance.colours[0] = formulas ? *formulas : constants(material.vector("color"));
+    reflectance.colours[0] = formulas ? *formulas : constants(material.vector("color"));
   } else if (given == "checker") {
-    reflectance.colours = squares_in_time(material.table("checker", "material.checker"), changes);
+    reflectance.colours = squares_in_time(material.table("checker", "material.checker"));
+  } else {
+    reflectance.colours[0] = constants(Vec3{grey});
   }
-  if (!changes) return std::nullopt;
   if (material.has("uv")) reflectance.uv = number_in_time(material, "uv");
   if (material.has("ir")) reflectance.ir = number_in_time(material, "ir");
   return reflectance;

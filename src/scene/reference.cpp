@@ -25,10 +25,12 @@ A scene is a TOML 1.0 file. `backlight check SCENE.toml` says whether it is righ
   fmod.
 - **`t` is a time in seconds, of the clock that the place has.** In what is about the picture or the camera it is
   `image_time`. In materials, in the strength of a light and in the formula of a surface it is the thing's own time when
-  the light left it: so a ball at 0.9 c blinks by its own clock, and its rim later than its middle. What has no clock of
-  its own (a radius, a frame's origin) is evaluated anew for each image, everywhere at once and without the delay of
-  light; that is told by a warning, unless it is written with `image_time`. A parameter that uses `t` is a formula, and
-  its `t` is that of the place where it is used.
+  the light left it: so a ball at 0.9 c blinks by its own clock, and its rim later than its middle. In the place of an
+  object or a light (`position`, `rotate`, `scale`) it is the time of its frame when the light left it: matter that
+  moves; with `velocity = [0, 0, 0]` it is put somewhere else for each image instead. What has no clock of its own (a
+  radius, a frame's origin) is evaluated anew for each image, everywhere at once and without the delay of light; that is
+  told by a warning, unless it is written with `image_time`. A parameter that uses `t` is a formula, and its `t` is that
+  of the place where it is used.
 - Colors are linear Rec.709. *Film Y* is the luminance of a film value; white is 1.
 - Mistakes are errors, reported all together: unknown keys, wrong types, duplicate names, references to nothing,
   speeds of c and more, numbers that are not finite. A definition of the scene file itself that nothing uses gives a

@@ -21,13 +21,14 @@ class Search {
   };
   [[nodiscard]] const std::vector<Found>& found() const { return found_; }
 
-  void table(const Node& node, const KeyTable& keys) {
+  // `of_a_thing`: what would be the picture's, such as the keys of a rocket, is a thing's here.
+  void table(const Node& node, const KeyTable& keys, bool of_a_thing = false) {
     if (node.table() == nullptr) return;
     const KeyTable* variant = variant_of(node, keys);
     for (const Entry& entry : *node.table()) {
       const Key* key = find_key(keys, entry.name);
       if (key == nullptr && variant != nullptr) key = find_key(*variant, entry.name);
-      if (key != nullptr) value(entry.node, *key);
+      if (key != nullptr) value(entry.node, *key, of_a_thing);
     }
   }
 
@@ -40,11 +41,12 @@ class Search {
     return usual != nullptr ? find_variant(keys, *usual) : nullptr;
   }
 
-  void value(const Node& node, const Key& key) {
+  void value(const Node& node, const Key& key, bool of_a_thing) {
+    const bool anew = key.clock == Clock::anew;
     for (const ValueForm& form : key.forms) {
       switch (form.kind) {
         case ValueKind::table:
-          table(node, *find_table(form.table));
+          table(node, *find_table(form.table), anew);
           break;
         case ValueKind::tables:
           if (node.array() == nullptr) break;
@@ -58,7 +60,7 @@ class Search {
           break;
       }
     }
-    if (key.clock != Clock::anew) return;
+    if (!anew && !(of_a_thing && key.clock == Clock::image)) return;
     if (const Node* number = depending(node)) note(key, number->place);
   }
 

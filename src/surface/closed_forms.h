@@ -15,6 +15,7 @@ namespace backlight {
 /// What is true of most; of a form that says nothing else.
 struct ClosedForm {
   static constexpr bool encloses = true, is_convex = true, is_flat = false;  ///< ShapeMethods
+  static constexpr bool is_boxed = false;  ///< may fill much more of its box than of a ball
 };
 
 /// Up to two crossings of a line, in order, and the faces; not a number: there is none. (As Crossings.)
@@ -99,7 +100,7 @@ struct SphereForm : ClosedForm {
 };
 
 struct BoxForm : ClosedForm {
-  static constexpr bool unit_gradient = true;
+  static constexpr bool unit_gradient = true, is_boxed = true;
 
   template <class V>
   static BACKLIGHT_LANES LaneCrossings<V> crossings(const double* values, const LaneLine<V>& line) {
@@ -130,7 +131,7 @@ struct BoxForm : ClosedForm {
 /// Cylinders and cones: radius at the bottom, at the top, and the height.
 template <bool is_cylinder>
 struct FrustumForm : ClosedForm {
-  static constexpr bool unit_gradient = false;
+  static constexpr bool unit_gradient = false, is_boxed = true;
 
   template <class V>
   static BACKLIGHT_LANES LaneCrossings<V> crossings(const double* values, const LaneLine<V>& line) {
@@ -203,7 +204,7 @@ struct FrustumForm : ClosedForm {
 /// y = 0: a disk, or all of a plane.
 template <bool is_disk>
 struct FlatForm : ClosedForm {
-  static constexpr bool unit_gradient = true, encloses = !is_disk, is_flat = true;
+  static constexpr bool unit_gradient = true, encloses = !is_disk, is_flat = true, is_boxed = is_disk;
 
   template <class V>
   static BACKLIGHT_LANES LaneCrossings<V> crossings(const double* values, const LaneLine<V>& line) {

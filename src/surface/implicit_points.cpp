@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backlight/surface/implicit_surface.h"
+#include "backlight/surface/matter_motion.h"
 
 namespace backlight {
 namespace {
@@ -66,10 +67,12 @@ void find_beside(const ImplicitFormula& f, const LocalLine& line, double t, doub
 /// Points at which f is to be put to 0, up to a window of them.
 class Batch {
  public:
-  Batch(const ImplicitFormula& f, double size) : f_(f), size_(size) {}
+  explicit Batch(const ImplicitFormula& f) : f_(f) {}
 
-  void add(LocalPoint& point, double time) {
+  /// `size`: of the coordinates that are met with.
+  void add(LocalPoint& point, double time, double size) {
     points_[count_] = &point;
+    sizes_[count_] = size;
     times_[count_++] = time;
     if (count_ == window) finish();
   }
@@ -83,14 +86,14 @@ class Batch {
       if (!has_direction(gradient_[k])) continue;
       points_[k]->gradient = gradient_[k];
       const Vec3 step = gradient_[k] * (value_[k] / square);
-      if (glm::length(step) < 1e-12 * size_) points_[k]->position = points_[k]->position - step;
+      if (glm::length(step) < 1e-12 * sizes_[k]) points_[k]->position = points_[k]->position - step;
     }
     place();
     f_.program().enclose_points(lines(), count_, workspace());
     for (std::size_t k = 0; k < count_; ++k) {
       if (!has_direction(gradient_[k])) continue;
       const double left = std::max(-lines().lower()[k], lines().upper()[k]);
-      points_[k]->error = std::min(2.0 * left / glm::length(gradient_[k]), 1e-3 * size_);
+      points_[k]->error = std::min(2.0 * left / glm::length(gradient_[k]), 1e-3 * sizes_[k]);
     }
     count_ = 0;
   }
@@ -132,20 +135,25 @@ class Batch {
   }
 
   const ImplicitFormula& f_;
-  double size_;
   std::size_t count_ = 0;
   LocalPoint* points_[window];
   double times_[window];
+  double sizes_[window];
   double value_[window];
   Vec3 gradient_[window];
 };
+
+/// Of the coordinates about a point of the surface: what goes away has no bounds that say it.
+double size_at(const Shape& shape, const Vec3& p) {
+  if (shape.motion && shape.motion->ball()) return 2.0 * shape.motion->ball()->radius + glm::length(p);
+  return glm::length(implicit_high(shape) - implicit_low(shape));
+}
 
 }  // namespace
 
 void implicit_points(const Shape& shape, const LocalLines& lines, std::span<const Crossing> crossings,
                      TextureCoordinates wanted, std::span<LocalPoint> points) {
-  const double size = glm::length(implicit_high(shape) - implicit_low(shape));
-  Batch batch(*shape.formula, size);
+  Batch batch(*shape.formula);
   for (std::size_t i = 0; i < lines.count; ++i) {
     const LocalLine line = timed(shape, lines.line(i));
     const Crossing& crossing = crossings[i];
@@ -155,13 +163,14 @@ void implicit_points(const Shape& shape, const LocalLines& lines, std::span<cons
     point.gradient = -line.direction;
     if (wanted == TextureCoordinates::wanted) texture_of_body(shape, point);
     const double time = time_at(line, crossing.t);
+    const double size = size_at(shape, point.position);
     if (shape.blend) point.member = member_at(shape, point.position, time);
     if (crossing.part >= implicit_caps) {
       put_on_face(shape, crossing.part - implicit_caps, point);
     } else if (crossing.unresolved) {
       find_beside(*shape.formula, line, crossing.t, size, point);
     } else {
-      batch.add(point, time);
+      batch.add(point, time, size);
     }
   }
   batch.finish();

@@ -81,6 +81,12 @@ FormulaLine formula_line(const Shape& shape, const LocalLine& line) {
   return {{p.x, p.y, p.z, scale * line.clock.start}, {d.x, d.y, d.z, scale * line.clock.rate}};
 }
 
+/// The same of several lines.
+void with_faces(const Shape& shape, const LocalLines& lines, Stretch (&stretches)[LocalLines::most]) {
+  if (goes_away(shape)) return inside_ball(*shape.motion, lines, stretches);
+  for (std::size_t i = 0; i < lines.count; ++i) stretches[i] = with_faces(shape, lines.line(i));
+}
+
 /// For the statistics.
 thread_local std::uint64_t roots_solved = 0;
 
@@ -141,9 +147,11 @@ void first_crossings_of(const Shape& shape, const LocalLines& lines, double lamb
                         std::span<FirstOnLine> results) {
   std::fill_n(results.begin(), lines.count, FirstOnLine{});
   Questions& q = questions_of_thread();
+  Stretch stretches[LocalLines::most];
+  with_faces(shape, lines, stretches);
   for (std::size_t i = 0; i < lines.count; ++i) {
     const LocalLine line = lines.line(i);
-    ask(shape, line, with_faces(shape, line), lines.at_lambda(i, lambda_min), i, q);
+    ask(shape, line, stretches[i], lines.at_lambda(i, lambda_min), i, q);
   }
   answer(shape, q, RootsWanted::places);
   for (std::size_t k = 0; k < q.pieces.size(); ++k) {
@@ -162,9 +170,11 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
   Questions& q = questions_of_thread();
   LocalLines ending;  // before they leave the bounds: there the place of a root matters
   std::size_t line_of[LocalLines::most];
+  Stretch stretches[LocalLines::most];
+  with_faces(shape, lines, stretches);
   for (std::size_t i = 0; i < lines.count; ++i) {
     const LocalLine line = lines.line(i);
-    const Stretch stretch = with_faces(shape, line);
+    const Stretch& stretch = stretches[i];
     if (lines.is_before(i, stretch.out, lambda_max)) {
       ask(shape, line, stretch, lines.at_lambda(i, lambda_min), i, q);
     } else {

@@ -22,8 +22,10 @@ struct LaneSurface {
   LaneMatrix local_from_rest{};
   LaneMatrix rest_from_local{};
   double largest_scale = 1.0;
-  double radius = 0.0;  ///< of the bounding sphere about the centre, rest frame; may be infinite
-  double values[10]{};  ///< Shape::values
+  double radius = 0.0;   ///< of the bounding sphere about the centre, rest frame; may be infinite
+  double values[10]{};   ///< Shape::values
+  double half[3]{};      ///< of the box about the local origin, local; of what has bounds
+  double stretch = 0.0;  ///< no less than what local_from_rest makes of lengths
 };
 
 /// Rays in the rest frame of a surface.

@@ -1,8 +1,10 @@
 #include "backlight/surface/matter_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "backlight/expression/enclosure.h"
 #include "own_time.h"
 
 namespace backlight {
@@ -55,6 +57,23 @@ double MatterMotion::own_time(const Vec3& place, double time, const Mat3& rest_f
   }
   const Vec3 point = body_point(place, time);
   return own_time_along([&](double when) { return rest_from_local * velocity_of(point, when); }, time);
+}
+
+double MatterMotion::change_of_velocity(const Vec3& velocity, double from, double to) const {
+  constexpr std::array<double, 4> origin{};
+  constexpr std::array<double, 4> direction{0.0, 0.0, 0.0, 1.0};
+  const double scale = time_.seconds_per_length;
+  double square = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const Expression& path = ball_->path[static_cast<std::size_t>(i)];
+    const IntervalSlope range =
+        enclose(path.tape(), {origin, direction}, scale * std::max(from, ball_->begins), scale * to);
+    const double off =
+        std::max(range.slope.upper * scale - velocity[i], velocity[i] - range.slope.lower * scale);
+    square += off * off;
+  }
+  // No velocity is larger than the ball's.
+  return std::min(std::sqrt(square), 2.0 * ball_->speed);
 }
 
 MatterMotion::Centre MatterMotion::centre(double time) const {

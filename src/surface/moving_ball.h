@@ -2,6 +2,7 @@
 #pragma once
 
 #include "backlight/surface/matter_motion.h"
+#include "backlight/surface/surface_set.h"
 #include "convex.h"
 #include "local_line.h"
 
@@ -10,5 +11,11 @@ namespace backlight {
 /// A stretch of the line outside which it is not in the motion's ball: docs/physics.md equation (28). For
 /// light and for lines of one moment alike.
 Stretch inside_ball(const MatterMotion& motion, const LocalLine& line);
+
+/// The same of each of several lines: of light, from events that are near to each other, by equation (30).
+void inside_ball(const MatterMotion& motion, const LocalLines& lines, Stretch (&stretches)[LocalLines::most]);
+
+/// A sphere that holds all places at which light can have left the motion's ball that arrives at an event.
+BoundingSphere seen_from(const MatterMotion& motion, const Vec3& place, double time);
 
 }  // namespace backlight

@@ -11,6 +11,8 @@ namespace {
 /// Bounding radii are given this much more than their formulas, to cover the rounding of the formulas.
 constexpr double slack = 1.0 + 1e-12;
 
+constexpr LaneMatrix unit_matrix{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+
 Extent extent_along(const LaneMatrix& m, int i) {
   const double x = std::abs(m.column[0][i]);
   const double y = std::abs(m.column[1][i]);
@@ -37,6 +39,13 @@ PlacedSurface place(const Shape& shape, const Placement& placement) {
   lanes.largest_scale = std::max({scale.x, scale.y, scale.z});
   lanes.radius = slack * methods(shape).bounding_radius(shape, scale);
   std::copy(shape.values.begin(), shape.values.end(), lanes.values);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 row{lanes.local_from_rest.column[0][i], lanes.local_from_rest.column[1][i],
+                   lanes.local_from_rest.column[2][i]};
+    lanes.stretch = std::max(lanes.stretch, std::abs(row.x) + std::abs(row.y) + std::abs(row.z));
+    if (std::isfinite(lanes.radius))
+      lanes.half[i] = methods(shape).half_extent(shape, extent_along(unit_matrix, i));
+  }
   return surface;
 }
 

@@ -48,7 +48,10 @@ SurfacePoint placed_point(const PlacedSurface& surface, const LocalPoint& point)
 
 SurfacePoint surface_point(const PlacedSurface& surface, const LocalPoint& point, double time) {
   const MatterMotion* motion = surface.shape.motion.get();
-  return placed_point(surface, motion != nullptr ? with_motion(surface, *motion, point, time) : point);
+  SurfacePoint placed =
+      placed_point(surface, motion != nullptr ? with_motion(surface, *motion, point, time) : point);
+  if (!placed.moves) placed.own_time = time;
+  return placed;
 }
 
 }  // namespace backlight

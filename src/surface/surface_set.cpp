@@ -7,6 +7,7 @@
 #include "csg_solid.h"
 #include "hierarchy.h"
 #include "local_line.h"
+#include "moving_ball.h"
 #include "presence.h"
 #include "shape_table.h"
 #include "surface_point.h"
@@ -215,6 +216,44 @@ Hit SurfaceSet::first_crossing_of(int surface, const Vec3& origin, const Vec3& d
 
 BoundingSphere SurfaceSet::bounds(int surface) const {
   return {at(surface).position(), at(surface).radius()};
+}
+
+namespace {
+
+BoundingSphere both(const BoundingSphere& a, const BoundingSphere& b) {
+  if (a.radius < 0.0) return b;
+  const Vec3 way = b.centre - a.centre;
+  const double apart = glm::length(way);
+  if (apart + b.radius <= a.radius) return a;
+  if (!(apart + a.radius > b.radius)) return b;
+  const double radius = 0.5 * (apart + a.radius + b.radius);
+  return {a.centre + (radius - a.radius) / apart * way, radius * (1.0 + 1e-14)};
+}
+
+BoundingSphere seen_sphere(const PlacedSurface& surface, const Vec3& place, double time) {
+  const BoundingSphere always{surface.position(), surface.radius()};
+  BoundingSphere seen;
+  const Vec3 from = place - surface.position();
+  if (const MatterMotion* motion = surface.shape.motion.get(); motion != nullptr && motion->ball()) {
+    seen = backlight::seen_from(*motion, from, time);
+    seen.centre += surface.position();
+  } else if (surface.shape.solid && surface.lanes.aligned) {
+    for (const Solid::Leaf& leaf : surface.shape.solid->leaves()) {
+      BoundingSphere of_leaf = seen_sphere(leaf.surface, from, time);
+      of_leaf.centre += surface.position();
+      seen = both(seen, of_leaf);
+    }
+  }
+  return seen.radius >= 0.0 && seen.radius < always.radius ? seen : always;
+}
+
+}  // namespace
+
+BoundingSphere SurfaceSet::seen_from(const Vec3& place, double time) const {
+  if (!any_moves()) return bounds();
+  BoundingSphere all;
+  for (const PlacedSurface& surface : surfaces_) all = both(all, seen_sphere(surface, place, time));
+  return all;
 }
 
 BoundingSphere SurfaceSet::bounds() const {

@@ -93,8 +93,6 @@ void put(const SurfacePoint& point, int ray, SheetPoints& out) {
   out.u[ray] = point.u;
   out.v[ray] = point.v;
   out.member[ray] = point.member;
-  out.moves[ray] = point.moves;
-  if (!point.moves) return;
   for (int k = 0; k < 3; ++k) out.velocity[k][ray] = point.velocity[k];
   out.own_time[ray] = point.own_time;
 }

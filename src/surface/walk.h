@@ -101,23 +101,18 @@ class Walk {
     /// Of rays that go as far as `lambda` says of each. False: they do not all go the same way along the axis
     /// that the first one goes along.
     bool make(const RaySheet& rays, std::uint64_t active, const double* lambda) {
-      Box origins, same;
-      if (rays.one_origin) {
-        for (int k = 0; k < 3; ++k) origins.set(k, rays.origin[k][0], rays.origin[k][0], 0.0);
-      } else {
-        set_boxes(rays, active, 0.0, origins, same);
-      }
+      Box origins;
+      for (int k = 0; k < 3; ++k) origins.set(k, rays.origin[k][0], rays.origin[k][0], 0.0);
+      if (!rays.one_origin) origins = around(rays, active, 0.0);
       return make(origins, 1.0, rays, active, lambda, infinity);
     }
 
-    /// Of segments that end at lambda_max: it begins where their starts are or, if these are nearer to one
-    /// another, at their ends. (The light of a lamp comes from a point, or from few.)
+    /// Of segments that end at lambda_max, where it begins: the light of a lamp comes from a point, or from
+    /// few.
     bool make(const RaySheet& rays, std::uint64_t active, double lambda_max) {
-      Box starts, ends;
-      const bool finite = lambda_max < infinity;
-      set_boxes(rays, active, finite ? lambda_max : 0.0, starts, ends);
-      const bool back = finite && ends.size() < starts.size();
-      return make(back ? ends : starts, back ? -1.0 : 1.0, rays, active, nullptr, lambda_max);
+      const bool back = lambda_max < infinity;
+      const Box begin = around(rays, active, back ? lambda_max : 0.0);
+      return make(begin, back ? -1.0 : 1.0, rays, active, nullptr, lambda_max);
     }
 
     /// How far along the axis it reaches.
@@ -169,25 +164,30 @@ class Walk {
       }
     };
 
-    /// Around the starts of rays, and around where they are at `lambda`.
-    static void set_boxes(const RaySheet& rays, std::uint64_t active, double lambda, Box& starts, Box& ends) {
-      for (int k = 0; k < 3; ++k) {
-        V least[2] = {V(infinity), V(infinity)}, most[2] = {V(-infinity), V(-infinity)};
-        for (int i = 0; i < rays.padded; i += N) {
-          const unsigned lanes = lanes_of(active, i);
-          if (lanes == 0) continue;
-          const V start = rays.one_origin ? V(rays.origin[k][0]) : V::load(rays.origin[k] + i);
-          const V end = start + V(lambda) * V::load(rays.direction[k] + i);
-          least[0] = smaller(least[0], pick(lanes, start, least[0]));
-          most[0] = larger(most[0], pick(lanes, start, most[0]));
-          least[1] = smaller(least[1], pick(lanes, end, least[1]));
-          most[1] = larger(most[1], pick(lanes, end, most[1]));
-        }
-        const double low = least_of(least[0]), high = most_of(most[0]);
-        starts.set(k, low, high, 0.0);
-        ends.set(k, least_of(least[1]), most_of(most[1]),
-                 (low < 0.0 ? -low : low) + (high < 0.0 ? -high : high));
+    /// Around where rays are at `lambda`.
+    static Box around(const RaySheet& rays, std::uint64_t active, double lambda) {
+      V3 least{V(infinity), V(infinity), V(infinity)}, most = -least;
+      V terms(0.0);
+      for (int i = 0; i < rays.padded; i += N) {
+        const unsigned lanes = lanes_of(active, i);
+        if (lanes == 0) continue;
+        const auto take = [&](V start, V direction, V & low, V & high) __attribute__((always_inline)) {
+          const V way = V(lambda) * direction, end = start + way;
+          low = smaller(low, pick(lanes, end, low));
+          high = larger(high, pick(lanes, end, high));
+          terms = larger(terms, pick(lanes, magnitude(start) + magnitude(way), terms));
+        };
+        const V3 origin = origin_of(rays, i), direction = load3<V>(rays.direction, i);
+        take(origin.x, direction.x, least.x, most.x);
+        take(origin.y, direction.y, least.y, most.y);
+        take(origin.z, direction.z, least.z, most.z);
       }
+      Box box;
+      const double all_terms = most_of(terms);
+      box.set(0, least_of(least.x), most_of(most.x), all_terms);
+      box.set(1, least_of(least.y), most_of(most.y), all_terms);
+      box.set(2, least_of(least.z), most_of(most.z), all_terms);
+      return box;
     }
 
     /// `way`: 1, or -1 for rays backwards.
@@ -248,30 +248,41 @@ class Walk {
     double reach_room_;
   };
 
-  /// Which rays of a register may meet a surface's bounding sphere: with room for all rounding.
+  /// Which rays of a register may meet a surface's bounding sphere and its box: with room for all rounding.
+  template <bool boxed>
   class Sight {
    public:
     BACKLIGHT_LANES Sight(const LaneSurface& surface, bool is_lone, const RaySheet& rays, double lambda_max)
         : surface_(surface),
           lambda_max_(lambda_max),
           one_(rays.one_origin),
-          all_(is_lone || !(surface.radius < infinity)) {
-      if (!one_ || all_) return;
+          all_(is_lone || !(surface.radius < infinity)),
+          half_(V(1.0 + 1e-11) * V3(surface.half)),
+          start_(half_),
+          room_(1e-14 * surface.stretch),
+          reach_(room_) {
+      if (!one_) return;
       double square = 0.0;
       for (int k = 0; k < 3; ++k) {
         to_[k] = surface.centre[k] - rays.origin[k][0];
         square += to_[k] * to_[k];
       }
+      if (boxed) set_start(-V3(to_));
+      if (all_) return;
       const double left = square - surface.radius * surface.radius * (1.0 + 1e-11);
       all_ = !(left > 0.0);
       level_ = __builtin_sqrt(all_ ? 0.0 : left) - 1e-11 * __builtin_sqrt(square);
     }
 
-    [[nodiscard]] BACKLIGHT_LANES unsigned lanes(const RaySheet& rays, int i) const {
-      if (all_) return all_lanes;
+    [[nodiscard]] BACKLIGHT_LANES unsigned lanes(const RaySheet& rays, int i) {
+      if (all_) return boxed ? lanes_to_box(rays, i) : all_lanes;
       const V3 d = load3<V>(rays.direction, i);
       const V size = V::load(rays.length + i);
-      if (one_) return bits(dot(d, V3(to_)) >= V(level_) * size);
+      if (one_) {
+        const unsigned met = bits(dot(d, V3(to_)) >= V(level_) * size);
+        return met == 0 || !boxed ? met : met & lanes_to_box(rays, i);
+      }
+      if (boxed) return lanes_to_box(rays, i);
       // The closest approach to the centre, without a division.
       const V3 o = load3<V>(rays.origin, i) - V3(surface_.centre);
       const V square = dot(o, o), along = dot(o, d), square_length = dot(d, d);
@@ -282,7 +293,7 @@ class Walk {
     }
 
     /// Of the given ones.
-    [[nodiscard]] std::uint64_t rays(const RaySheet& sheet, std::uint64_t active) const {
+    [[nodiscard]] std::uint64_t rays(const RaySheet& sheet, std::uint64_t active) {
       std::uint64_t met = 0;
       for (int i = 0; i < sheet.padded; i += N) {
         const unsigned open = lanes_of(active, i);
@@ -292,11 +303,37 @@ class Walk {
     }
 
    private:
+    BACKLIGHT_LANES void set_start(V3 from_centre) {
+      start_ = surface_.aligned ? from_centre : surface_.local_from_rest.times(from_centre);
+      reach_ = room_ * (largest_coordinate(from_centre) + V(surface_.radius));
+    }
+
+    // Lines and boxes are apart if they are so along an edge of the box, or across it and the line.
+    [[nodiscard]] BACKLIGHT_LANES unsigned lanes_to_box(const RaySheet& rays, int i) {
+      if (!one_) set_start(load3<V>(rays.origin, i) - V3(surface_.centre));
+      V3 d = load3<V>(rays.direction, i);
+      if (!surface_.aligned) d = surface_.local_from_rest.times(d);
+      const V3 p = start_, half = half_, size{magnitude(d.x), magnitude(d.y), magnitude(d.z)};
+      const V length = V::load(rays.length + i), noise = V(surface_.stretch) * reach_ * length;
+      Mask met = (magnitude(p.y * d.z - p.z * d.y) <= half.y * size.z + half.z * size.y + noise) &
+                 (magnitude(p.z * d.x - p.x * d.z) <= half.z * size.x + half.x * size.z + noise) &
+                 (magnitude(p.x * d.y - p.y * d.x) <= half.x * size.y + half.y * size.x + noise);
+      if (lambda_max_ < infinity) {
+        const V middle(0.5 * lambda_max_), more = reach_ + room_ * V(lambda_max_) * length;
+        met = met & (magnitude(p.x + middle * d.x) <= half.x + middle * size.x + more) &
+              (magnitude(p.y + middle * d.y) <= half.y + middle * size.y + more) &
+              (magnitude(p.z + middle * d.z) <= half.z + middle * size.z + more);
+      }
+      return bits(met);
+    }
+
     const LaneSurface& surface_;
     double lambda_max_;
     bool one_, all_;
-    double to_[3];  // of one origin: the centre from there
-    double level_;
+    V3 half_, start_;  // of a box; of the rays, in its coordinates
+    V room_, reach_;   // for rounding: for each unit of length, and of the way from the start
+    double to_[3];     // of one origin: the centre from there
+    double level_ = 0.0;
   };
 
   /// Calls work(child, near) for the surfaces that the pyramid meets, near ones first; it returns true to
@@ -379,7 +416,7 @@ class Walk {
       nearer = nearest_by<decltype(form)>(surface, who, s.is_lone, rays, active, hits);
     };
     if (with_form(surface.kind, use)) return nearer;
-    const std::uint64_t near = Sight(surface, s.is_lone, rays, infinity).rays(rays, active);
+    const std::uint64_t near = Sight<false>(surface, s.is_lone, rays, infinity).rays(rays, active);
     return near != 0 && s.nearest_of(s.set, index, near, rays, who, hits);
   }
 
@@ -408,7 +445,7 @@ class Walk {
   template <class Form>
   static BACKLIGHT_LANES bool nearest_by(const LaneSurface& surface, double who, bool is_lone,
                                          const RaySheet& rays, std::uint64_t active, SheetHits& hits) {
-    const Sight sight(surface, is_lone, rays, infinity);
+    Sight<Form::is_boxed> sight(surface, is_lone, rays, infinity);
     bool any = false;
     for (int i = 0; i < rays.padded; i += N) {
       const unsigned open = lanes_of(active, i);
@@ -437,7 +474,7 @@ class Walk {
       blocked = blocked_by_form<decltype(form)>(surface, who, s.is_lone, rays, active, question);
     };
     if (with_form(surface.kind, use)) return blocked;
-    const std::uint64_t near = Sight(surface, s.is_lone, rays, question.lambda_max).rays(rays, active);
+    const std::uint64_t near = Sight<false>(surface, s.is_lone, rays, question.lambda_max).rays(rays, active);
     return near != 0 ? s.blocked_by(s.set, index, near, rays, question.lambda_max) : 0;
   }
 
@@ -445,7 +482,7 @@ class Walk {
   static BACKLIGHT_LANES std::uint64_t blocked_by_form(const LaneSurface& surface, double who, bool is_lone,
                                                        const RaySheet& rays, std::uint64_t active,
                                                        const ShadowQuestion& question) {
-    const Sight sight(surface, is_lone, rays, question.lambda_max);
+    Sight<Form::is_boxed> sight(surface, is_lone, rays, question.lambda_max);
     std::uint64_t all = 0;
     for (int i = 0; i < rays.padded; i += N) {
       unsigned open = lanes_of(active, i);

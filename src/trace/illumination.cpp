@@ -4,40 +4,52 @@
 #include <limits>
 
 namespace backlight {
+
+LampMoment way_to_moving(const Light& light, const Vec3& place, double event_time) {
+  const MatterMotion& motion = *light.motion;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = event_time;
+  LampMoment moment;
+  moment.time = event_time;
+  for (int i = 0; i < 100; ++i) {
+    const MatterMotion::Centre lamp = motion.centre(moment.time);
+    const Vec3 way = lamp.place - place;
+    moment.direction = {way, glm::length(way)};
+    moment.velocity = lamp.velocity;
+    const double length = moment.direction.length;
+    const double late = (event_time - moment.time) - length;
+    if (late == 0.0 || length == 0.0) break;
+    (late > 0.0 ? low : high) = moment.time;
+    double next = moment.time + late / (1.0 + glm::dot(way, lamp.velocity) / length);
+    if (!(next > low && next < high)) {
+      next = std::isfinite(low) ? 0.5 * low + 0.5 * high : moment.time - 2.0 * std::abs(late);
+    }
+    if (next == moment.time) break;
+    moment.time = next;
+  }
+  return moment;
+}
+
+double LampMoment::own_length() const {
+  return boost_by<Source, Source>(velocity)(direction).length;
+}
+
+double LampMoment::strength_time(const Light& light) const {
+  if (!light.flickers) return time;
+  return light.motion->own_time(light.motion->centre(time).place, time, Mat3(1.0));
+}
+
 namespace {
 
 // The way from the hit to the light, in the light's frame, and the light's own time when it left.
 struct WayToLight {
   NullDirection<Source> direction;
   double emission_time;
-  LorentzTransform<Source, Source> lamp =
-      {};  ///< from the light's frame to the lamp's own, if it moves there
+  Vec3 velocity{0.0};  ///< of a lamp on a path
 };
 
-// Of a lamp on a path, equation (29): h(t) = t_P - t - |x_P - c(t)| falls, since the lamp is slower than
-// light.
-WayToLight way_to_moving(const Event<Source>& event, const Light& light) {
-  const MatterMotion& motion = *light.motion;
-  double low = -std::numeric_limits<double>::infinity();
-  double high = event.t;
-  double time = event.t;
-  MatterMotion::Centre lamp;
-  Vec3 way{0.0};
-  double length = 0.0;
-  for (int i = 0; i < 100; ++i) {
-    lamp = motion.centre(time);
-    way = lamp.place - event.x;
-    length = glm::length(way);
-    const double late = (event.t - time) - length;
-    if (late == 0.0 || length == 0.0) break;
-    (late > 0.0 ? low : high) = time;
-    double next = time + late / (1.0 + glm::dot(way, lamp.velocity) / length);
-    if (!(next > low && next < high))
-      next = std::isfinite(low) ? 0.5 * low + 0.5 * high : time - 2.0 * std::abs(late);
-    if (next == time) break;
-    time = next;
-  }
-  return {{way, length}, time, boost_by<Source, Source>(lamp.velocity)};
+WayToLight way_of(const LampMoment& moment, const Light& light) {
+  return {moment.direction, moment.strength_time(light), moment.velocity};
 }
 
 // Equation (10): the past light cone of the hit meets the lamp's world line, and there is nothing to solve in
@@ -46,7 +58,7 @@ WayToLight way_from(const Event<Source>& event, const Light& light) {
   if (light.kind == LightKind::distant) {
     return {{-light.direction, 1.0}, event.t - glm::dot(light.direction, event.x)};
   }
-  if (light.motion) return way_to_moving(event, light);
+  if (light.motion) return way_of(way_to_moving(light, event.x, event.t), light);
   const NullDirection<Source> direction = null_direction<Source>(light.position - event.x);
   return {direction, event.t - direction.length};
 }
@@ -58,7 +70,7 @@ WayToLight way_from(const ExtendedEvent& event, const Light& light) {
     const Extended front = event.t - dot(ExtendedVec3{light.direction}, event.x);
     return {{-light.direction, 1.0}, double(front)};
   }
-  if (light.motion) return way_to_moving({double(event.t), event.x.rounded()}, light);
+  if (light.motion) return way_of(way_to_moving(light, event.x.rounded(), double(event.t)), light);
   const ExtendedVec3 way = ExtendedVec3{light.position} - event.x;
   const Extended length = sqrt(dot(way, way));
   return {{way.rounded(), double(length)}, double(event.t - length)};
@@ -86,14 +98,15 @@ void go_along(const RestRayEvents& ray, bool light_delay, SeenPoint& point) {
   const Vec3& w = point.matter.celerity();
   const double gamma = point.matter.gamma();
   const Vec3& g = point.surface.normal;
-  point.normal = glm::normalize(g - glm::dot(g, w) / (gamma * (gamma + 1.0)) * w);
+  const Vec3 normal = g - glm::dot(g, w) / (gamma * (gamma + 1.0)) * w;
+  point.normal = (1.0 / std::sqrt(glm::dot(normal, normal))) * normal;
   if (light_delay) {
     const NullDirection<Rest> n = point.matter(NullDirection<Rest>{-point.to_camera, 1.0});
     point.doppler = 1.0 / n.length;
     point.to_camera = -n.x * point.doppler;
   } else {
     const Displacement<Rest> n = point.matter(Displacement<Rest>{ray.time_rate, ray.direction});
-    point.to_camera = -glm::normalize(n.x);
+    point.to_camera = (1.0 / std::sqrt(glm::dot(n.x, n.x))) * -n.x;
   }
 }
 
@@ -103,8 +116,8 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit) {
   const RestRayEvents& ray = rays.in_frame_of(hit);
   SeenPoint point;
   point.hit = hit;
-  point.surface = hub.frames[static_cast<std::size_t>(hit.frame)].scene->surfaces->resolve(
-      hit.hit, ray.origin, ray.direction, ray.clock());
+  const SurfaceSet& surfaces = *hub.frames[static_cast<std::size_t>(hit.frame)].scene->surfaces;
+  point.surface = surfaces.resolve(hit.hit, ray.origin, ray.direction, ray.clock());
   // The boost knows the length of a null vector, 1/D; without light delay there is none.
   const bool light_delay = rays.ray().light_delay;
   const double inverse_length = light_delay ? ray.doppler(true).value : 1.0 / glm::length(ray.direction);
@@ -112,7 +125,7 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit) {
   point.normal = point.surface.normal;
   point.time = ray.at(hit.lambda).t;
   point.proper_time = point.time;
-  if (point.surface.moves) go_along(ray, light_delay, point);
+  if (surfaces.moves(hit.hit.surface)) go_along(ray, light_delay, point);
   const bool outside = glm::dot(point.normal, point.to_camera) >= 0.0;
   point.side = outside ? point.surface.normal : -point.surface.normal;
   if (!outside) point.normal = -point.normal;
@@ -136,10 +149,7 @@ std::optional<Arrival> arrival(const Hub& hub, RayInFrames& rays, const SeenPoin
   const WayToLight way = way_to_light(hub, rays, point, light);
   Arrival a;
   a.segment.direction = way.direction;
-  a.emission_time = light.motion && light.flickers
-                        ? light.motion->own_time(light.motion->centre(way.emission_time).place,
-                                                 way.emission_time, Mat3(1.0))
-                        : way.emission_time;
+  a.emission_time = way.emission_time;
   if (light.kind == LightKind::distant) a.segment.end = std::numeric_limits<double>::infinity();
   const auto& to_surface = view.to_frame[static_cast<std::size_t>(point.hit.frame)];
   const NullDirection<Rest> in_frame = to_surface(a.segment.direction);
@@ -149,8 +159,9 @@ std::optional<Arrival> arrival(const Hub& hub, RayInFrames& rays, const SeenPoin
   a.to_light = k.x * inverse_length;
   a.cosine = glm::dot(point.normal, a.to_light);
   if (!(a.cosine > 0.0)) return std::nullopt;
-  a.doppler = {k.length / way.lamp(way.direction).length};
-  a.gamma = light.motion ? gamma_of_lamp(point, to_surface, way.lamp) : gamma_between(point, to_surface);
+  const auto lamp = boost_by<Source, Source>(way.velocity);
+  a.doppler = {k.length / (light.motion ? lamp(way.direction).length : way.direction.length)};
+  a.gamma = light.motion ? gamma_of_lamp(point, to_surface, lamp) : gamma_between(point, to_surface);
   if (light.kind == LightKind::point) a.inverse_square = inverse_length * inverse_length;
   a.segment.start_in_surface_frame = point.surface.position + point.surface.error_bound * point.side;
   a.segment.direction_in_surface_frame = in_frame.x;

@@ -63,7 +63,7 @@ Radiance<Rest> shade(const ShadingContext& context, const SeenPoint& point, cons
                   const LinearRgb& lamp = scene.lights[i].colour.rgb;
                   const LinearRgb diffuse = by_point ? context.rest_colours->under(i, texel)
                                                      : context.rest_colours->under(i, index, slot);
-                  out.rgb += irradiance * (diffuse / pi + specular * lamp);
+                  out.rgb += irradiance * (std::numbers::inv_pi * diffuse + specular * lamp);
                 });
   return out;
 }
@@ -74,7 +74,8 @@ LinearRgb shade_shifted(const ShadingContext& context, const SeenPoint& point, c
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
   const double t = point.proper_time / context.scene->c;
   LinearRgb sum = emitted_colour(context, index, t, s);
-  const Reflectance reflectance = fill_reflectance(context, index, point.surface.u, point.surface.v, t, s);
+  const Reflectance reflectance =
+      fill_reflectance(seen_reflectance(context, index, point.surface.u, point.surface.v, t, s.texel), s);
   for_each_lamp(context, point, effects, material, s,
                 [&](std::size_t light, double irradiance, double specular, const Arrival& a) {
                   const LampColours lamp = lamp_colours(context.spectra->light(light), a.doppler,

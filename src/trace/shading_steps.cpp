@@ -7,11 +7,12 @@
 #include "backlight/base/lane_power.h"
 #include "backlight/colour/film_integral.h"
 #include "backlight/colour/upsampling.h"
+#include "backlight/film/lane_texture.h"
 
 namespace backlight {
+
 int checker_slot(const Checker& checker, double u, double v) {
-  const double square = std::floor(u / checker.size) + std::floor(v / checker.size);
-  return std::fmod(square, 2.0) == 0.0 ? 0 : 1;
+  return is_odd_square(Lanes<1>(checker.size), Lanes<1>(u), Lanes<1>(v)).v ? 1 : 0;
 }
 
 LinearRgb texture_reflectance(const Material& material, double u, double v) {
@@ -95,10 +96,8 @@ LinearRgb emitted_colour(const ShadingContext& context, int index, double t, Scr
   return std::isfinite(sum) ? shifted_rgb(context, *now.colour, s) : LinearRgb{sum};
 }
 
-namespace {
-
 SeenSpectrum seen_reflectance(const ShadingContext& context, int index, double u, double v, double t,
-                              Scratch& s) {
+                              Spectrum& texel) {
   const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
   if (!reflects_by_point(material)) {
     const int slot = material.checker ? checker_slot(*material.checker, u, v) : 0;
@@ -112,15 +111,13 @@ SeenSpectrum seen_reflectance(const ShadingContext& context, int index, double u
   }
   const double sum = rgb.r + rgb.g + rgb.b + uv.value_or(0.0) + ir.value_or(0.0);
   if (std::isnan(sum)) {
-    s.texel = Spectrum::constant(sum);
-    return {&s.texel, context.wavelengths};
+    texel = Spectrum::constant(sum);
+    return {&texel, context.wavelengths};
   }
   const auto [shape, set] = context.wavelengths->upsampled(rgb, context.spectra->steepest_light());
-  s.texel = Spectrum::sigmoid_reflectance(shape, uv, ir);
-  return {&s.texel, set};
+  texel = Spectrum::sigmoid_reflectance(shape, uv, ir);
+  return {&texel, set};
 }
-
-}  // namespace
 
 namespace {
 
@@ -131,9 +128,8 @@ void sample(const SeenSpectrum& reflectance, Scratch& s) {
 
 }  // namespace
 
-Reflectance fill_reflectance(const ShadingContext& context, int index, double u, double v, double t,
-                             Scratch& s) {
-  Reflectance reflectance{seen_reflectance(context, index, u, v, t, s), {}};
+Reflectance fill_reflectance(const SeenSpectrum& seen, Scratch& s) {
+  Reflectance reflectance{seen, {}};
   const Spectrum& spectrum = *reflectance.seen.spectrum;
   if (spectrum.is_grey()) {
     reflectance.grey = spectrum.at(visible_begin_nm);

@@ -60,10 +60,13 @@ struct Reflectance {
   [[nodiscard]] bool is_looked_up() const { return seen.number != 0; }
 };
 
-/// That of a point at its own time `t` in scene seconds. Where it is of this point alone it stands in
-/// s.texel, and sampled in s.reflectance.
-Reflectance fill_reflectance(const ShadingContext& context, int material, double u, double v, double t,
-                             Scratch& s);
+/// The reflectance of a point at its own time `t` in scene seconds. Of a texture, or where it depends on t,
+/// it stands in `texel`.
+SeenSpectrum seen_reflectance(const ShadingContext& context, int material, double u, double v, double t,
+                              Spectrum& texel);
+
+/// The same, and sampled in s.reflectance if it is of this point alone.
+Reflectance fill_reflectance(const SeenSpectrum& seen, Scratch& s);
 
 /// Film colours of a lamp of unit strength.
 struct LampColours {
@@ -79,7 +82,7 @@ LampColours lamp_colours(const SeenSpectrum& lamp, DopplerFactor<Rest, Source> d
 inline LinearRgb reflected_colour(const LampColours& lamp, DopplerFactor<Rest, Source> doppler,
                                   double irradiance, double specular) {
   const double density = irradiance * wavelength_density_factor(doppler);
-  return density * (lamp.reflected * std::numbers::inv_pi + specular * lamp.whole);
+  return density * (std::numbers::inv_pi * lamp.reflected + specular * lamp.whole);
 }
 
 }  // namespace backlight

@@ -9,10 +9,14 @@
 #include <cstdint>
 
 #include "backlight/base/lanes.h"
+#include "backlight/camera/sample_digits.h"
+#include "backlight/film/lane_texture.h"
 #include "backlight/surface/ray_sheet.h"
 #include "backlight/trace/sheet_tracer.h"
 
 namespace backlight {
+
+struct Light;
 
 /// `count` rounded up to whole registers of any width.
 inline int padded_count(int count) {
@@ -131,10 +135,15 @@ struct PointSheet {
   };
   Run runs[sheet_size];
   int run_count = 0;
+  /// Whether their matter may not be at rest in their frame: then its celerity there, and γ.
+  bool moves = false;
+  alignas(64) double celerity[3][sheet_size];
+  alignas(64) double gamma[sheet_size];
   RaySheet rays;       ///< the camera's, in their frame
   SheetPoints points;  ///< the normal on the side that is seen, after face()
   int material[sheet_size];
   // face():
+  std::uint64_t unresolved;  ///< hits, one bit each
   alignas(64) double to_camera[3][sheet_size];
   alignas(64) double proper_time[sheet_size];
   alignas(64) double doppler[sheet_size];  ///< D on the way to the camera
@@ -159,14 +168,12 @@ struct PointSheet {
   alignas(64) double irradiance[sheet_size];
   alignas(64) double specular[sheet_size];
   alignas(64) double diffuse[3][sheet_size];  ///< film colour under this lamp
+  // Of shifted colours:
+  std::uint64_t odd_squares = 0;           ///< of a checker
+  alignas(64) double shift[sheet_size];    ///< D from the lamp to the camera
+  alignas(64) double lamp[4][sheet_size];  ///< film colour of all of its light, and that's luminance
   alignas(64) double rgb[3][sheet_size];
 
-  /// The lit ones, one bit each.
-  [[nodiscard]] std::uint64_t lit_bits() const {
-    std::uint64_t all = 0;
-    for (int i = 0; i < sheet_size; ++i) all |= (lit[i] > 0.0 ? std::uint64_t{1} : 0) << i;
-    return all & first_bits(count);
-  }
   [[nodiscard]] LightRays light_rays() {
     return {{way[0], way[1], way[2]}, way_length, relative_emission_time, lit};
   }
@@ -179,15 +186,28 @@ struct LaneBrightness {
   bool solid_angle = true;
 };
 
+/// Where light left a lamp on a path that arrives at some events, for a register of them: illumination.h has
+/// it for one.
+struct LampMeeting {
+  double way[3][8];      ///< from the event to the lamp
+  double length[8];      ///< of the way
+  double own_length[8];  ///< the same in the frame of the lamp's velocity
+  double time[8];        ///< by which its strength goes
+};
+
 /// A light as seen from the frame of a sheet's points.
 struct LaneLamp {
   LaneFrame frame;           ///< the light's
   LaneMotion to_surface;     ///< from the light's frame to the surface's
   double time_offset = 0.0;  ///< of the eye from the camera's event, in the light's frame
-  bool own_frame = false;    ///< it rests in the surface's frame
+  int surface_frame = -1;
+  bool own_frame = false;  ///< it rests in the surface's frame
   bool distant = false;
   double position[3]{};
   double direction[3]{};
+  /// Of a lamp on a path: called for `count` events, place by place and time by time; else null.
+  void (*meet)(const Light&, int count, const double (*place)[8], const double* time, LampMeeting&) = nullptr;
+  const Light* light = nullptr;
 };
 
 /// What a bundle of light is made from.
@@ -203,10 +223,13 @@ struct LightSpan {
 struct LaneReflection {
   LaneBrightness brightness;
   bool distant = false;
-  double gamma = 1.0;          ///< of the lamp relative to the surface
-  double specular = 0.0;       ///< k (n+2)/2π; 0: none
-  double shininess = 1.0;      ///< n
-  double lamp[3]{};            ///< its film colour
+  double gamma = 1.0;      ///< of the lamp relative to the surface...
+  double way[3]{};         ///< ...and its celerity seen from there, for matter that moves
+  double specular = 0.0;   ///< k (n+2)/2π; 0: none
+  double shininess = 1.0;  ///< n
+  bool same_lamp = true;   ///< at all points it has the film colour `lamp`, else PointSheet's
+  double lamp[3]{};
+  bool shifted = false;        ///< these colours are at the camera's wavelengths
   bool same_strength = false;  ///< at all points: `strength`, else PointSheet's
   double strength = 0.0;
   bool same_diffuse = false;  ///< at all points: `diffuse`, else PointSheet's
@@ -214,9 +237,19 @@ struct LaneReflection {
   const double* own = nullptr;  ///< the first lamp's light is added to this, else to the points' rgb
 };
 
+/// How the light of points goes to the camera.
+struct LaneCarriage {
+  LaneBrightness brightness;
+  double gamma = 1.0;  ///< of the camera relative to their frame...
+  double way[3]{};     ///< ...and its celerity seen from there, for matter that moves
+  bool shifted = false;
+};
+
 /// The kernels of one instruction set.
 struct SheetKernels {
   const char* name;
+  /// sample_point() of 64 pixels, of several samples each.
+  void (*sample)(const SampleRow& row, const int* column, const int* line, double* x, double* y);
   /// The looking directions of a perspective image at the points (x, y): camera/projection.h.
   void (*look)(const LaneLens& lens, const double* x, const double* y, SheetRays& rays);
   /// The smallest bundle about the mean of the rays.
@@ -229,14 +262,16 @@ struct SheetKernels {
   /// axis, of some of the rays.
   void (*gather)(const LaneLamp& lamp, const SheetRays& rays, const SheetHits& hits, const double* axis,
                  LightSpan& span);
-  /// Which of the first `count` hits are of this surface, one bit each.
-  std::uint64_t (*same)(const SheetHits& hits, int count, double who);
+  /// Which of the first `count` numbers are this one, one bit each.
+  std::uint64_t (*same)(const double* numbers, int count, double which);
   /// Which rays are in the cone, one bit each; those of their registers in the frame, into `to`.
   std::uint64_t (*enter)(const LaneFrame& frame, const LaneCone& cone, const SheetRays& rays, RaySheet& to);
   /// The camera rays of the points in their frame, into points.rays.
   void (*in_frame)(const LaneFrame& frame, PointSheet& points);
   /// What follows from points however found: `to_camera`, proper time, D, and the normal's side.
   void (*face)(PointSheet& points);
+  /// The same of rays to the sky: D and texture coordinates.
+  void (*face_sky)(PointSheet& points);
   /// What of a lamp's light reaches the points, but for shadows. Bits: the lit ones.
   std::uint64_t (*arrive)(const LaneLamp& lamp, PointSheet& points);
   /// The bundle of the lit rays from `first` to `last` (whole registers); false when there are none.
@@ -254,8 +289,10 @@ struct SheetKernels {
   void (*reflect)(const LaneReflection& reflection, PointSheet& points);
   /// rgb += irradiance (diffuse/π + specular lamp) where lit.
   void (*add_light)(const LaneReflection& reflection, PointSheet& points);
-  /// To the camera: rgb *= F.
-  void (*carry)(const LaneBrightness& brightness, double gamma, PointSheet& points);
+  /// Which of the points are on a checker's odd squares, one bit each.
+  std::uint64_t (*odd_squares)(double size, const PointSheet& points);
+  /// To the camera: rgb *= F, or F D for shifted colours.
+  void (*carry)(const LaneCarriage& carriage, PointSheet& points);
 };
 
 /// The kernels, if this machine runs them; `baseline` always does.

@@ -44,9 +44,9 @@ BACKLIGHT_LANES LaneNull<V> looking(const LaneFrame& frame, LaneVec3<V> d, bool 
 }
 
 template <class V>
-BACKLIGHT_LANES V brightness_factor(const LaneBrightness& on, V d, double gamma, bool with_solid_angle) {
+BACKLIGHT_LANES V brightness_factor(const LaneBrightness& on, V d, V gamma, bool with_solid_angle) {
   const V energy = on.photon_energy ? d : V(1.0);
-  const V rate = on.arrival_rate == 0 ? d : on.arrival_rate == 1 ? V(gamma) : V(1.0);
+  const V rate = on.arrival_rate == 0 ? d : on.arrival_rate == 1 ? gamma : V(1.0);
   const V flux = energy * rate;
   if (!with_solid_angle) return flux;
   return flux * (on.solid_angle ? d * d : V(1.0));
@@ -57,6 +57,10 @@ struct KernelsOf {
   using V = Lanes<N>;
   using V3 = LaneVec3<V>;
   using Mask = LaneMask<N>;
+
+  static void sample(const SampleRow& row, const int* column, const int* line, double* x, double* y) {
+    for (int i = 0; i < sheet_size; i += N) sample_points<N>(row, column + i, line + i, x + i, y + i);
+  }
 
   static void look(const LaneLens& lens, const double* across, const double* down, SheetRays& rays) {
     const V3 forward(lens.forward), right(lens.right), up(lens.up);
@@ -327,11 +331,20 @@ struct KernelsOf {
     span.reach = most_of(reach);
   }
 
-  static std::uint64_t same(const SheetHits& hits, int count, double who) {
+  static std::uint64_t same(const double* numbers, int count, double which) {
     std::uint64_t all = 0;
     for (int i = 0; i < count; i += N)
-      all |= static_cast<std::uint64_t>(bits(V::load(hits.who + i) == V(who))) << i;
+      all |= static_cast<std::uint64_t>(bits(V::load(numbers + i) == V(which))) << i;
     return all & first_bits(count);
+  }
+
+  static std::uint64_t odd_squares(double size, const PointSheet& p) {
+    std::uint64_t all = 0;
+    for (int i = 0; i < p.padded; i += N) {
+      const Mask odd = is_odd_square(V(size), V::load(p.points.u + i), V::load(p.points.v + i));
+      all |= static_cast<std::uint64_t>(bits(odd)) << i;
+    }
+    return all;
   }
 
   static void begin_rays(const LaneFrame& frame, int padded, RaySheet& to) {
@@ -368,23 +381,69 @@ struct KernelsOf {
     }
   }
 
+  /// Into the frame of the matter that goes along at i: boost_by() of spacetime/transform.h.
+  static BACKLIGHT_LANES LaneNull<V> with_matter(const PointSheet& p, int i, V3 x, V length) {
+    const V3 w = load3<V>(p.celerity, i);
+    const V gamma = V::load(p.gamma + i);
+    const V along = dot(w, x);
+    return {x + (along * (V(1.0) / (V(1.0) + gamma)) + length) * w, gamma * length + along};
+  }
+
+  /// γ of the matter relative to what goes by at `way` in its frame; `gamma` is that of the frame.
+  static BACKLIGHT_LANES V gamma_between(const PointSheet& p, int i, double gamma, const double (&way)[3]) {
+    if (!p.moves) return gamma;
+    return V(gamma) * V::load(p.gamma + i) + dot(V3(way), load3<V>(p.celerity, i));
+  }
+
+  /// Equations (23) and (24): a unit normal, where the ray came from, and D on the way, of matter that moves.
+  static BACKLIGHT_LANES void go_along(const PointSheet& p, int i, V3& normal, V3& to_camera, V& doppler) {
+    const V one = V(1.0);
+    const V3 w = load3<V>(p.celerity, i);
+    const V gamma = V::load(p.gamma + i);
+    const V3 g = normal - dot(normal, w) / (gamma * (gamma + one)) * w;
+    normal = (one / sqrt(dot(g, g))) * g;
+    if (p.light_delay) {
+      const LaneNull<V> n = with_matter(p, i, -to_camera, one);
+      const V matter = one / n.length;
+      to_camera = matter * -n.x;
+      doppler = doppler * matter;
+    } else {
+      const LaneNull<V> n = with_matter(p, i, load3<V>(p.rays.direction, i), -V::load(p.rays.time_rate + i));
+      to_camera = (one / sqrt(dot(n.x, n.x))) * -n.x;
+    }
+  }
+
   static void face(PointSheet& p) {
     p.shadow.padded = p.padded;
     p.shadow.one_origin = false;
+    p.unresolved = 0;
     for (int i = 0; i < p.padded; i += N) {
+      p.unresolved |= static_cast<std::uint64_t>(bits(V::load(p.hits->part + i) < V(0.0))) << i;
       const V inverse_length = V(1.0) / V::load(p.rays.length + i);
-      const V3 to_camera = inverse_length * -load3<V>(p.rays.direction, i);
-      const V3 normal = load3<V>(p.points.normal, i);
+      V3 to_camera = inverse_length * -load3<V>(p.rays.direction, i);
+      const V3 surface = load3<V>(p.points.normal, i);
+      V3 normal = surface;
+      V doppler = p.light_delay ? inverse_length : V(1.0);
+      if (p.moves) go_along(p, i, normal, to_camera, doppler);
       const Mask outside = dot(normal, to_camera) >= V(0.0);
-      const V3 seen = select(outside, normal, -normal);
+      const V3 seen = select(outside, surface, -surface);
       const V time = V(p.rays.start_time[0]) + V::load(p.hits->lambda + i) * V::load(p.rays.time_rate + i);
-      store3(seen, p.points.normal, i);
+      store3(select(outside, normal, -normal), p.points.normal, i);
       store3(to_camera, p.to_camera, i);
       store3(load3<V>(p.points.position, i) + V::load(p.points.error_bound + i) * seen, p.shadow.origin, i);
-      time.store(p.proper_time + i);
+      (p.moves ? V::load(p.points.own_time + i) : time).store(p.proper_time + i);
       time.store(p.shadow.start_time + i);
-      (p.light_delay ? inverse_length : V(1.0)).store(p.doppler + i);
+      doppler.store(p.doppler + i);
       select(outside, V::load(p.own + i), V::load(p.own_inside + i)).store(p.own + i);
+    }
+  }
+
+  static void face_sky(PointSheet& p) {
+    for (int i = 0; i < p.padded; i += N) {
+      (p.light_delay ? V(1.0) / V::load(p.rays.length + i) : V(1.0)).store(p.doppler + i);
+      const LaneSkyPlace<V> place(load3<V>(p.rays.direction, i));
+      place.u.store(p.points.u + i);
+      place.v.store(p.points.v + i);
     }
   }
 
@@ -397,7 +456,7 @@ struct KernelsOf {
       V3 place;
       if (lamp.own_frame) {
         relative = lambda * V::load(p.rays.time_rate + i);
-        time = V::load(p.proper_time + i);
+        time = V::load(p.shadow.start_time + i);
         place = load3<V>(p.points.position, i);
       } else {
         const LaneNull<V> n = looking(lamp.frame, load3<V>(p.direction, i), p.light_delay);
@@ -406,8 +465,19 @@ struct KernelsOf {
         place = V3(lamp.frame.origin) + lambda * n.x;
       }
       V3 way;
-      V way_length;
-      if (lamp.distant) {
+      V way_length, own_length;
+      if (lamp.meet != nullptr) {
+        LampMeeting meeting;
+        double places[3][8], times[8];
+        store3(place, places, 0);
+        time.store(times);
+        lamp.meet(*lamp.light, N, places, times, meeting);
+        way = load3<V>(meeting.way, 0);
+        way_length = V::load(meeting.length);
+        own_length = V::load(meeting.own_length);
+        V::load(meeting.time).store(p.emission_time + i);
+        (V(lamp.time_offset) + relative - way_length).store(p.relative_emission_time + i);
+      } else if (lamp.distant) {
         way = -V3(lamp.direction);
         way_length = V(1.0);
         (time - dot(V3(lamp.direction), place)).store(p.emission_time + i);
@@ -418,7 +488,9 @@ struct KernelsOf {
         (time - way_length).store(p.emission_time + i);
         (V(lamp.time_offset) + relative - way_length).store(p.relative_emission_time + i);
       }
-      const LaneNull<V> k = boosted(lamp.to_surface, way, way_length);
+      if (lamp.meet == nullptr) own_length = way_length;
+      const LaneNull<V> in_frame = boosted(lamp.to_surface, way, way_length);
+      const LaneNull<V> k = p.moves ? with_matter(p, i, in_frame.x, in_frame.length) : in_frame;
       const V inverse_length = V(1.0) / k.length;
       const V3 to_light = inverse_length * k.x;
       const V cosine = dot(load3<V>(p.points.normal, i), to_light);
@@ -428,12 +500,12 @@ struct KernelsOf {
       if (lamp.distant) store3(place, p.place, i);
       store3(way, p.way, i);
       way_length.store(p.way_length + i);
-      store3(k.x, p.shadow.direction, i);
-      k.length.store(p.shadow.length + i);
-      (-k.length).store(p.shadow.time_rate + i);
+      store3(in_frame.x, p.shadow.direction, i);
+      in_frame.length.store(p.shadow.length + i);
+      (-in_frame.length).store(p.shadow.time_rate + i);
       store3(to_light, p.to_light, i);
       cosine.store(p.cosine + i);
-      (k.length / way_length).store(p.lamp_doppler + i);
+      (k.length / own_length).store(p.lamp_doppler + i);
       (lamp.distant ? V(1.0) : inverse_length * inverse_length).store(p.inverse_square + i);
     }
     for (int i = p.count; i < p.padded; ++i) p.lit[i] = 0.0;
@@ -502,7 +574,8 @@ struct KernelsOf {
     for (int i = 0; i < p.padded; i += N) {
       if (bits(V::load(p.lit + i) > V(0.0)) == 0) continue;
       const V cosine = V::load(p.cosine + i);
-      const V factor = brightness_factor(r.brightness, V::load(p.lamp_doppler + i), r.gamma, !r.distant);
+      const V factor = brightness_factor(r.brightness, V::load(p.lamp_doppler + i),
+                                         gamma_between(p, i, r.gamma, r.way), !r.distant);
       const V strength = r.same_strength ? V(r.strength) : V::load(p.strength + i);
       (factor * strength * cosine * V::load(p.inverse_square + i)).store(p.irradiance + i);
       V lobe = 0.0;
@@ -520,25 +593,33 @@ struct KernelsOf {
   }
 
   static void add_light(const LaneReflection& r, PointSheet& p) {
-    const V pi = 3.141592653589793;
+    const V inverse_pi = 0.31830988618379067;
     for (int i = 0; i < p.padded; i += N) {
       const Mask lit = V::load(p.lit + i) > V(0.0);
       const V3 before = r.own != nullptr ? V3{V(r.own[0]), V(r.own[1]), V(r.own[2])} : load3<V>(p.rgb, i);
-      const V3 diffuse = (r.same_diffuse ? V3(r.diffuse) : load3<V>(p.diffuse, i)) / pi;
-      const V3 sum = diffuse + V::load(p.specular + i) * V3(r.lamp);
-      store3(select(lit, before + V::load(p.irradiance + i) * sum, before), p.rgb, i);
+      const V3 diffuse = inverse_pi * (r.same_diffuse ? V3(r.diffuse) : load3<V>(p.diffuse, i));
+      const V3 lamp = r.same_lamp
+                          ? V3(r.lamp)
+                          : V3{V::load(p.lamp[0] + i), V::load(p.lamp[1] + i), V::load(p.lamp[2] + i)};
+      V density = V::load(p.irradiance + i);
+      if (r.shifted) density = density * V::load(p.lamp_doppler + i);
+      const V3 sum = diffuse + V::load(p.specular + i) * lamp;
+      store3(select(lit, before + density * sum, before), p.rgb, i);
     }
   }
 
-  static void carry(const LaneBrightness& brightness, double gamma, PointSheet& p) {
+  static void carry(const LaneCarriage& c, PointSheet& p) {
     for (int i = 0; i < p.padded; i += N) {
-      const V factor = brightness_factor(brightness, V::load(p.doppler + i), gamma, true);
+      const V doppler = V::load(p.doppler + i);
+      V factor = brightness_factor(c.brightness, doppler, gamma_between(p, i, c.gamma, c.way), true);
+      if (c.shifted) factor = factor * doppler;
       store3(factor * load3<V>(p.rgb, i), p.rgb, i);
     }
   }
 
   static constexpr SheetKernels table(const char* name) {
     return {.name = name,
+            .sample = sample,
             .look = look,
             .bundle = bundle,
             .overlapping = overlapping,
@@ -548,6 +629,7 @@ struct KernelsOf {
             .enter = enter,
             .in_frame = in_frame,
             .face = face,
+            .face_sky = face_sky,
             .arrive = arrive,
             .light_bundle = light_bundle,
             .sift = sift,
@@ -555,6 +637,7 @@ struct KernelsOf {
             .cast = cast,
             .reflect = reflect,
             .add_light = add_light,
+            .odd_squares = odd_squares,
             .carry = carry};
   }
 };

@@ -1,5 +1,6 @@
 #include "sheet_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -14,6 +15,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_extended(const FrameView& view) {
   return view.from_camera.is_robust() || view.far != nullptr;
+}
+
+// Whether a material of the object is another one at each time.
+bool lives(const Scene& scene, const Object& object) {
+  const auto its = [&](int material) {
+    return scene.materials[static_cast<std::size_t>(material)].in_time != nullptr;
+  };
+  return its(object.material) || std::ranges::any_of(object.member_materials, its);
 }
 
 }  // namespace
@@ -36,6 +45,7 @@ SheetScene::SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& k
   for (std::size_t i = 0; i < hub.lights.size(); ++i) {
     lamps_.push_back(view_of(scene, i));
     if (scene.lights[i].kind == LightKind::ambient) continue;
+    lamps_move_ = lamps_move_ || scene.lights[i].motion;
     for (std::size_t f = 0; f < hub.frames.size(); ++f) {
       if (!lamps_[i].in_lanes || is_extended(hub.frames[f]) || hub.lights[i].to_frame[f].is_robust())
         lit_in_lanes_[f] = false;
@@ -50,14 +60,14 @@ void SheetScene::list_entries(const Scene& scene) {
     const int first = static_cast<int>(numbered_.size());
     Entry entry{frame, first, is_extended(view), false};
     // Solids of several materials are a group each: which one a point has is not known before.
-    std::unordered_map<int, int> group_of[2];
+    std::unordered_map<int, int> group_of[4];
     for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {
       const Object& object = object_of(scene, frame, s);
       const int key = object.member_materials.empty() ? object.material : -1 - object.id;
-      const bool moves = surfaces.moves(s);
-      const auto [group, is_new] =
-          group_of[moves ? 1 : 0].try_emplace(key, static_cast<int>(group_moves_.size()));
-      if (is_new) group_moves_.push_back(moves);
+      const Group its{lives(scene, object), surfaces.moves(s)};
+      const auto [group, is_new] = group_of[(its.lives ? 1 : 0) + (its.moves ? 2 : 0)].try_emplace(
+          key, static_cast<int>(groups_.size()));
+      if (is_new) groups_.push_back(its);
       numbered_.push_back({static_cast<int>(entries_.size()), group->second});
       entry.casts_shadows = entry.casts_shadows || surfaces.casts_shadow(s);
     }
@@ -84,7 +94,10 @@ EyeView SheetScene::view_of(const Scene& scene, int eye) const {
       const Entry& entry = entries_[i];
       const FrameView& view = hub_->frames[static_cast<std::size_t>(entry.frame)];
       const double* o = result.frames[static_cast<std::size_t>(entry.frame)].origin;
-      const BoundingSphere sphere = surfaces(entry).bounds();
+      const LaneFrame& eye_frame = result.frames[static_cast<std::size_t>(entry.frame)];
+      const BoundingSphere sphere = delayed != 0 && !entry.extended
+                                        ? surfaces(entry).seen_from({o[0], o[1], o[2]}, eye_frame.time)
+                                        : surfaces(entry).bounds();
       LaneCone cone;
       cone.level = -infinity;
       double radius = 0.0;
@@ -111,7 +124,7 @@ LampView SheetScene::view_of(const Scene& scene, std::size_t light) const {
   const Light& lamp = scene.lights[light];
   if (lamp.kind == LightKind::ambient) return result;
   const FrameView& lamp_frame = hub_->frames[static_cast<std::size_t>(lamp.frame)];
-  result.in_lanes = !is_extended(lamp_frame) && !lamp.motion;
+  result.in_lanes = !is_extended(lamp_frame);
   for (const auto& to_frame : hub_->lights[light].to_frame) result.to_frame.push_back(lane_motion(to_frame));
 
   const Vec3 from = lamp_frame.camera_event.x;
@@ -124,7 +137,7 @@ LampView SheetScene::view_of(const Scene& scene, std::size_t light) const {
     const Entry& entry = entries_[i];
     if (!entry.casts_shadows) continue;
     const BoundingSphere sphere = surfaces(entry).bounds();
-    if (!std::isfinite(sphere.radius)) {
+    if (!std::isfinite(sphere.radius) || lamp.motion) {
       result.unbounded.push_back(static_cast<int>(i));
       continue;
     }

@@ -18,7 +18,8 @@ class TableStore {
   void resize(std::size_t count) {
     const std::size_t column = (count + 8) / 4 * 4;  // with room for a register of any width behind the last
     const auto columns = table_.columns();
-    numbers_ = std::make_unique_for_overwrite<double[]>(columns.size() * column);
+    numbers_ = column <= small ? std::make_unique<double[]>(columns.size() * column)
+                               : std::make_unique_for_overwrite<double[]>(columns.size() * column);
     for (std::size_t i = 0; i < columns.size(); ++i) *columns[i] = numbers_.get() + i * column;
     table_.count = static_cast<int>(count);
   }
@@ -27,7 +28,10 @@ class TableStore {
 
  private:
   Table table_;
-  // Not touched before it is used: of a large scene's lists most threads use a small part.
+  // A large one is not touched before it is used: most threads use a small part. In a small one, what is left
+  // in memory behind the last would be a large part of what a kernel takes: of denormal numbers, too, which
+  // are slow.
+  static constexpr std::size_t small = 512;
   std::unique_ptr<double[]> numbers_;
 };
 using ConeStore = TableStore<ConeTable>;
@@ -71,16 +75,23 @@ class SheetScene {
   [[nodiscard]] const Numbered& numbered(int number) const {
     return numbered_[static_cast<std::size_t>(number)];
   }
-  [[nodiscard]] std::size_t group_count() const { return group_moves_.size(); }
-  /// Whether matter of the group may not be at rest in its frame.
-  [[nodiscard]] bool moves(int group) const { return group_moves_[static_cast<std::size_t>(group)]; }
+  [[nodiscard]] std::size_t group_count() const { return groups_.size(); }
+  /// Whether the points of the group are lighted one at a time, by the law: their material is another one at
+  /// each time.
+  [[nodiscard]] bool goes_singly(int group) const { return groups_[static_cast<std::size_t>(group)].lives; }
+  /// Whether the matter of the group may not be at rest in its frame.
+  [[nodiscard]] bool moves(int group) const { return groups_[static_cast<std::size_t>(group)].moves; }
   [[nodiscard]] const SurfaceSet& surfaces(const Entry& entry) const {
     return *hub_->frames[static_cast<std::size_t>(entry.frame)].scene->surfaces;
   }
   [[nodiscard]] const EyeView& eye(int eye) const { return eyes_[eye > 0 ? 1 : 0]; }
   [[nodiscard]] const LampView& lamp(std::size_t light) const { return lamps_[light]; }
   /// Whether all lights of points of this frame can be done in lanes.
-  [[nodiscard]] bool lit_in_lanes(int frame) const { return lit_in_lanes_[static_cast<std::size_t>(frame)]; }
+  [[nodiscard]] bool lit_in_lanes(int frame, const Effects& effects) const {
+    // Of a lamp on a path, γ is another one for each point: only this effect asks for it.
+    const bool by_gamma = lamps_move_ && effects.brightness.arrival_rate == ArrivalRate::dilation;
+    return lit_in_lanes_[static_cast<std::size_t>(frame)] && !by_gamma;
+  }
 
  private:
   void list_entries(const Scene& scene);
@@ -91,7 +102,11 @@ class SheetScene {
   const Hub* hub_;
   std::vector<Entry> entries_;
   std::vector<Numbered> numbered_;
-  std::vector<bool> group_moves_;
+  struct Group {
+    bool lives, moves;
+  };
+  std::vector<Group> groups_;
+  bool lamps_move_ = false;
   std::vector<EyeView> eyes_;
   std::vector<LampView> lamps_;
   std::vector<bool> lit_in_lanes_;

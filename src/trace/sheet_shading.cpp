@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "backlight/trace/sky.h"
 #include "shading_steps.h"
 
 namespace backlight {
@@ -20,6 +21,31 @@ void put(const Vec3& a, double (&to)[3][sheet_size], int lane) {
   for (int k = 0; k < 3; ++k) to[k][lane] = a[k];
 }
 
+// The celerity of From as seen from To, in To's axes, but for its sign.
+template <class To, class From>
+void put_way(const LorentzTransform<To, From>& transform, double (&way)[3]) {
+  const Vec3 w = transform.is_rotated() ? transform.rotation() * transform.celerity() : transform.celerity();
+  for (int k = 0; k < 3; ++k) way[k] = w[k];
+}
+
+LaneCarriage carriage(const FrameView& frame, const Effects& effects, bool shifted) {
+  LaneCarriage result{lane_brightness(effects.towards_camera()), frame.from_camera.gamma(), {}, shifted};
+  put_way(frame.from_camera, result.way);
+  return result;
+}
+
+// way_to_lamp() of several events.
+void meet_lamp(const Light& light, int count, const double (*place)[8], const double* time,
+               LampMeeting& meeting) {
+  for (int i = 0; i < count; ++i) {
+    const LampMoment moment = way_to_moving(light, {place[0][i], place[1][i], place[2][i]}, time[i]);
+    for (int k = 0; k < 3; ++k) meeting.way[k][i] = moment.direction.x[k];
+    meeting.length[i] = moment.direction.length;
+    meeting.own_length[i] = moment.own_length();
+    meeting.time[i] = moment.strength_time(light);
+  }
+}
+
 }  // namespace
 
 LaneBrightness lane_brightness(const BrightnessSwitches& on) {
@@ -30,7 +56,7 @@ LaneBrightness lane_brightness(const BrightnessSwitches& on) {
 }
 
 SheetScratch::SheetScratch(const SheetScene& scene, std::size_t lights, InstructionSet set)
-    : tile_lamps(lights), packets(lights), group_of(scene.group_count(), -1) {
+    : tile_lamps(lights), packets(lights), lane_lamps(lights), group_of(scene.group_count(), -1) {
   sheet_memory.resize(65);  // of a whole tile: its pages are touched here, not between its rays
   rays.instructions = points.rays.instructions = points.shadow.instructions = set;
   tile_cones.resize(scene.entries().size());
@@ -52,15 +78,19 @@ CameraRay SheetShader::camera_ray_of(int lane) const {
   return ray;
 }
 
-LaneLamp SheetShader::lane_lamp(std::size_t light, int frame) const {
+const LaneLamp& SheetShader::lane_lamp(std::size_t light, int frame) const {
   const Light& lamp = tracer_.scene().lights[light];
-  LaneLamp lanes;
+  LaneLamp& lanes = work_.lane_lamps[light];
+  if (lanes.surface_frame == frame) return lanes;
+  lanes.surface_frame = frame;
   lanes.frame = sheets_.eye(eye_).frames[static_cast<std::size_t>(lamp.frame)];
   lanes.to_surface = sheets_.lamp(light).to_frame[static_cast<std::size_t>(frame)];
   lanes.time_offset =
       lanes.frame.time - tracer_.hub().frames[static_cast<std::size_t>(lamp.frame)].camera_event.t;
   lanes.own_frame = lamp.frame == frame;
   lanes.distant = lamp.kind == LightKind::distant;
+  lanes.meet = lamp.motion ? meet_lamp : nullptr;
+  lanes.light = &lamp;
   for (int i = 0; i < 3; ++i) {
     lanes.position[i] = lamp.position[i];
     lanes.direction[i] = lamp.direction[i];
@@ -72,6 +102,7 @@ void SheetShader::begin_tile(const Effects& effects) {
   sheet_ = -1;
   effects_ = &effects;
   for (std::size_t light = 0; light < work_.packets.size(); ++light) {
+    work_.lane_lamps[light].surface_frame = -1;
     work_.packets[light].clear();
     work_.tile_lamps[light].table().count = SheetScratch::not_listed;
   }
@@ -98,6 +129,7 @@ bool SheetShader::resolve() {
   PointSheet& p = work_.points;
   const Scene& scene = tracer_.scene();
   const SurfaceSet& surfaces = sheets_.surfaces(*entry_);
+  bool is_one = true;  // material, or else members of solids may have several
   sheets_.kernels().in_frame(sheets_.eye(eye_).frames[frame()], p);
   for (int r = 0; r < p.run_count; ++r) {
     const auto [number, first, end] = p.runs[r];
@@ -111,12 +143,31 @@ bool SheetShader::resolve() {
     std::fill_n(p.own + first, count, surfaces.is_convex(surface) ? number : -1.0);
     std::fill_n(p.own_inside + first, count, surfaces.is_flat(surface) ? number : -1.0);
     std::fill_n(p.material + first, count, object.material);
+    is_one = is_one && members.empty();
     for (int i = first; i < end && !members.empty(); ++i) {
       p.material[i] = members[static_cast<std::size_t>(p.points.member[i])];
     }
   }
+  p.moves = sheets_.moves(sheets_.numbered(p.runs[0].surface).group);
+  too_fast_ = p.moves && !find_celerities();
   sheets_.kernels().face(p);
-  return std::all_of(p.material, p.material + p.count, [&](int its) { return its == p.material[0]; });
+  return is_one ||
+         std::all_of(p.material, p.material + p.count, [&](int its) { return its == p.material[0]; });
+}
+
+// As boost_by() has them; false if lanes cannot go along with any.
+bool SheetShader::find_celerities() {
+  PointSheet& p = work_.points;
+  bool slow = true;
+  for (int i = 0; i < p.padded; ++i) {
+    const Vec3 velocity{p.points.velocity[0][i], p.points.velocity[1][i], p.points.velocity[2][i]};
+    const double speed = glm::length(velocity);
+    p.gamma[i] = 1.0 / std::sqrt((1.0 - speed) * (1.0 + speed));
+    put(p.gamma[i] * velocity, p.celerity, i);
+    p.own[i] = p.own_inside[i] = -1.0;
+    slow = slow && !(p.gamma[i] > robust_gamma);
+  }
+  return slow;
 }
 
 void SheetShader::fill_strength(const Light& light) {
@@ -139,19 +190,17 @@ void SheetShader::fill_diffuse(std::size_t light, int index, LaneReflection& ref
   PointSheet& p = work_.points;
   const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
   const RestColours& colours = tracer_.rest_colours();
-  const bool by_point = reflects_by_point(material);
-  if (!by_point && !material.checker) {
+  if (!material.texture && !material.checker) {
     const LinearRgb& rgb = colours.under(light, index, 0);
     reflection.same_diffuse = true;
     for (int k = 0; k < 3; ++k) reflection.diffuse[k] = rgb[k];
     return;
   }
   for (int i = 0; i < p.count; ++i) {
-    const LinearRgb rgb =
-        by_point
-            ? colours.under(light, point_reflectance(material, p.points.u[i], p.points.v[i], own_time(i)))
-            : colours.under(light, index, checker_slot(*material.checker, p.points.u[i], p.points.v[i]));
-    put(rgb, p.diffuse, i);
+    const int slot = static_cast<int>(p.odd_squares >> i & 1U);
+    put(material.texture ? colours.under(light, texture_reflectance(material, p.points.u[i], p.points.v[i]))
+                         : colours.under(light, index, slot),
+        p.diffuse, i);
   }
   for (int i = p.count; i < p.padded; ++i) put(LinearRgb{0.0}, p.diffuse, i);
 }
@@ -181,7 +230,7 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
   std::uint64_t lit = sheets_.kernels().arrive(lane_lamp(index, entry_->frame), p);
   if (light.flickers || light.strength == 0.0) {
     fill_strength(light);
-    lit = p.lit_bits();
+    lit = lit_points();
   }
   if (lit == 0) return false;
   if (light.shadows) {
@@ -193,57 +242,67 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
   reflection.brightness = lane_brightness(effects.brightness);
   reflection.distant = light.kind == LightKind::distant;
   reflection.gamma = tracer_.hub().lights[index].to_frame[frame()].gamma();
+  put_way(tracer_.hub().lights[index].to_frame[frame()], reflection.way);
   reflection.specular =
       material.specular <= 0.0 ? 0.0 : material.specular * (material.shininess + 2.0) / (2.0 * pi);
   reflection.shininess = material.shininess;
   sheets_.kernels().reflect(reflection, p);
-  if (material.in_time && material.in_time->lobe) fill_lobes(material);
   return true;
 }
 
-// Of a lobe that is another at each point's own time.
-void SheetShader::fill_lobes(const Material& material) {
+void SheetShader::shade_sky(const SheetRays& rays, std::uint64_t lanes, const Effects& effects) {
   PointSheet& p = work_.points;
-  const auto at = [](const auto& rows, int i) { return Vec3{rows[0][i], rows[1][i], rows[2][i]}; };
-  for (int i = 0; i < p.count; ++i) {
-    if (!(p.lit[i] > 0.0)) continue;
-    p.specular[i] = specular_brdf(lobe_at(material, own_time(i)), at(p.points.normal, i), at(p.to_camera, i),
-                                  at(p.to_light, i), p.cosine[i]);
+  const Sky& sky = tracer_.scene().sky;
+  const auto frame = static_cast<std::size_t>(sky.frame);
+  const bool shifted = tracer_.is_spectral() && effects.doppler;
+  for (int k = 0; k < 3; ++k) p.direction[k] = rays.direction[k];
+  p.padded = rays.padded;
+  p.light_delay = rays.light_delay;
+  sheets_.kernels().in_frame(sheets_.eye(eye_).frames[frame], p);
+  sheets_.kernels().face_sky(p);
+  LinearRgb colour = sky.radiance.rgb;
+  double seen_at = 0.0;  // D of a colour that is that of all the sky
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = __builtin_ctzll(lanes);
+    if (sky.texture) colour = sky_texel(sky, p.points.u[lane], p.points.v[lane]);
+    if (shifted && (sky.texture || p.doppler[lane] != seen_at)) {
+      seen_at = p.doppler[lane];
+      shift_by({seen_at}, scratch_);
+      colour = sky_shifted(tracer_.shading(), {colour}, scratch_);
+    }
+    put(colour, p.rgb, lane);
   }
+  p.moves = false;
+  sheets_.kernels().carry(carriage(tracer_.hub().frames[frame], effects, shifted), p);
 }
 
-void SheetShader::light_rgb(const Material& material, int material_index, const Effects& effects) {
+void SheetShader::shade(const Effects& effects) {
   PointSheet& p = work_.points;
-  const LinearRgb own = material.emission ? material.emission->rgb : LinearRgb{0.0};
-  const double own_rgb[3] = {own.r, own.g, own.b};
-  const bool own_by_point = material.in_time && material.in_time->emission;
-  for (int i = 0; i < p.padded && own_by_point; ++i) {
-    put(i < p.count ? own_radiance(material, own_time(i)) : LinearRgb{0.0}, p.rgb, i);
-  }
-  bool first = !own_by_point;
+  const int index = p.material[0];
+  const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
   const std::vector<Light>& lights = tracer_.scene().lights;
+  const bool shifted = tracer_.is_spectral() && effects.doppler;
+  bool first = !shifted || !material.emission;
+  const LinearRgb own = first && material.emission ? material.emission->rgb : LinearRgb{0.0};
+  const double own_rgb[3] = {own.r, own.g, own.b};
+  if (!first) fill_emission(index);
+  p.odd_squares = material.checker ? sheets_.kernels().odd_squares(material.checker->size, p) : 0;
+  work_.known_texels = 0;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     LaneReflection reflection;
-    for (int k = 0; k < 3; ++k) reflection.lamp[k] = lights[i].colour.rgb[k];
     if (!light_arrives(i, effects, material, reflection)) continue;
-    fill_diffuse(i, material_index, reflection);
+    if (shifted) {
+      fill_shifted(i, index, reflection);
+    } else {
+      for (int k = 0; k < 3; ++k) reflection.lamp[k] = lights[i].colour.rgb[k];
+      fill_diffuse(i, index, reflection);
+    }
     if (first) reflection.own = own_rgb;
     first = false;
     sheets_.kernels().add_light(reflection, p);
   }
   for (int k = 0; k < 3 && first; ++k) std::fill_n(p.rgb[k], p.padded, own[k]);
-  const double gamma = tracer_.hub().frames[frame()].from_camera.gamma();
-  sheets_.kernels().carry(lane_brightness(effects.towards_camera()), gamma, p);
-}
-
-void SheetShader::shade(const Effects& effects) {
-  const int index = work_.points.material[0];
-  const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
-  if (tracer_.is_spectral() && effects.doppler) {
-    light_spectra(material, index, effects);
-  } else {
-    light_rgb(material, index, effects);
-  }
+  sheets_.kernels().carry(carriage(tracer_.hub().frames[frame()], effects, shifted), p);
 }
 
 }  // namespace backlight

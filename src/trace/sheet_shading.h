@@ -31,6 +31,7 @@ struct SheetScratch {
   std::vector<LampStore>
       tile_lamps;  ///< by light: what may shade any of the tile's hits; count: or not_listed
   std::vector<ShadowPackets> packets;   ///< by light
+  std::vector<LaneLamp> lane_lamps;     ///< by light, as last seen from a frame of the tile
   std::vector<LampStore> packet_lamps;  ///< what may shade any of a packet of shadow rays, and of its parts
   LampStore chunk_lamps;                ///< what may shade any of the points of a sheet...
   LampStore near_lamps;                 ///< ...and a few of them
@@ -52,18 +53,10 @@ struct SheetScratch {
   std::vector<Part> parts;   ///< as found...
   std::vector<Part> sorted;  ///< ...and by group
   PointSheet points;
-  /// What of a lamp reaches them, for spectra.
-  struct Lamp {
-    bool arrives;
-    double lit[sheet_size];
-    double irradiance[sheet_size];
-    double specular[sheet_size];
-    double doppler[sheet_size];
-    bool known;  ///< `colours` are those that the lamp has on the points, at this Doppler factor
-    double known_doppler;
-    LampColours colours;
-  };
-  std::vector<Lamp> lamp_light;
+  /// Reflectances of points of a texture, one bit for each that is known.
+  std::uint64_t known_texels;
+  std::vector<Spectrum> texels;
+  std::vector<SeenSpectrum> seen_texels;
 };
 
 /// Shades sheets of points of one image.
@@ -86,15 +79,21 @@ class SheetShader {
 
   /// Whether lanes can light the points; else they are left to the law.
   [[nodiscard]] bool in_lanes() const {
-    return sheets_.lit_in_lanes(entry_->frame) &&
-           !sheets_.moves(sheets_.numbered(work_.points.runs[0].surface).group);
+    return sheets_.lit_in_lanes(entry_->frame, *effects_) &&
+           !sheets_.goes_singly(sheets_.numbered(work_.points.runs[0].surface).group);
   }
 
   /// Finds the points themselves. False: they are of several materials, as of a solid's members.
   bool resolve();
 
+  /// Whether the matter of a point that was found is too fast for lanes in its frame.
+  [[nodiscard]] bool is_too_fast() const { return too_fast_; }
+
   /// The colours of work.points, of one material, into points.rgb.
   void shade(const Effects& effects);
+
+  /// The sky's colours along the rays whose bits are set, into points.rgb.
+  void shade_sky(const SheetRays& rays, std::uint64_t lanes, const Effects& effects);
 
   /// What the ray of a lane of work.points meets.
   [[nodiscard]] FirstHit hit(int lane) const;
@@ -103,12 +102,10 @@ class SheetShader {
   [[nodiscard]] CameraRay camera_ray_of(int lane) const;
 
  private:
-  [[nodiscard]] LaneLamp lane_lamp(std::size_t light, int frame) const;
+  [[nodiscard]] const LaneLamp& lane_lamp(std::size_t light, int frame) const;
+  bool find_celerities();
   void fill_strength(const Light& light);
   void fill_diffuse(std::size_t light, int material, LaneReflection& reflection);
-  void fill_lobes(const Material& material);
-  /// Of the matter at a point when its light left, in scene seconds.
-  [[nodiscard]] double own_time(int lane) const { return work_.points.proper_time[lane] / tracer_.scene().c; }
   // Shadows (tile_shadows.cpp):
   const LampTable& occluders_of_tile(std::size_t light);
   void list_for_tile(std::size_t light, LampTable& list) const;
@@ -121,11 +118,18 @@ class SheetShader {
   [[nodiscard]] bool is_alone(int entry) const;
   void shadow_of_distant(std::size_t light);
 
-  void light_rgb(const Material& material, int material_index, const Effects& effects);
   void ambient_arrives(std::size_t light);
   bool light_arrives(std::size_t light, const Effects& effects, const Material& material,
                      LaneReflection& reflection);
-  void light_spectra(const Material& material, int material_index, const Effects& effects);
+  // Shifted colours (sheet_spectra.cpp):
+  void fill_emission(int material);
+  void fill_shifted(std::size_t light, int material, LaneReflection& reflection);
+  [[nodiscard]] std::uint64_t look_up(std::size_t light, int material, std::uint64_t points, bool has_lobe);
+  LampColours colours_at(int lane, std::size_t light, int material);
+  /// One bit each.
+  [[nodiscard]] std::uint64_t lit_points() const {
+    return sheets_.kernels().same(work_.points.lit, work_.points.count, 1.0);
+  }
   [[nodiscard]] std::size_t frame() const { return static_cast<std::size_t>(entry_->frame); }
 
   const Tracer& tracer_;
@@ -136,6 +140,7 @@ class SheetShader {
   const Entry* entry_ = nullptr;  // of whose frame the points are
   int sheet_ = -1;                // their number in the tile
   const Effects* effects_ = nullptr;
+  bool too_fast_ = false;
 };
 
 LaneBrightness lane_brightness(const BrightnessSwitches& on);

@@ -1,4 +1,4 @@
-// Shifted colours of the points of a sheet: Tracer::colour and shade_shifted for many.
+// Shifted colours of the points of a sheet: lamp_colours and emitted_colour for many.
 #include <algorithm>
 
 #include "shading_steps.h"
@@ -7,102 +7,129 @@
 namespace backlight {
 namespace {
 
-// What the wavelengths make of a material and the lamps. As long as the points have the same shifts, as all
-// those have of a surface that rests relative to the camera and a lamp, their colours are those of the point
-// before.
-class ShiftedColours {
- public:
-  ShiftedColours(const ShadingContext& context, int material, SheetScratch& work, Scratch& scratch)
-      : context_(context),
-        index_(material),
-        material_(context.scene->materials[static_cast<std::size_t>(material)]),
-        lamps_(work.lamp_light),
-        s_(scratch) {}
-
-  // `t`: the matter's own time, in scene seconds.
-  void begin(DopplerFactor<Camera, Rest> doppler, double u, double v, double t) {
-    const int slot = material_.checker ? checker_slot(*material_.checker, u, v) : 0;
-    const bool by_point = material_.texture || material_.in_time;
-    if (began_ && doppler.value == doppler_.value && slot == slot_ && !by_point) return;
-    began_ = true;
-    doppler_ = doppler;
-    shift_by(doppler, s_);
-    slot_ = slot;
-    u_ = u;
-    v_ = v;
-    t_ = t;
-    ready_ = false;
-    for (SheetScratch::Lamp& lamp : lamps_) lamp.known = false;
-    emitted_ = emitted_colour(context_, index_, t, s_);
+void put(const LinearRgb& colour, double (*to)[sheet_size], std::uint64_t points) {
+  for (; points != 0; points &= points - 1) {
+    for (int k = 0; k < 3; ++k) to[k][__builtin_ctzll(points)] = colour[k];
   }
-
-  [[nodiscard]] const LinearRgb& emitted() const { return emitted_; }
-
-  const LampColours& under(std::size_t light, DopplerFactor<Rest, Source> doppler) {
-    SheetScratch::Lamp& lamp = lamps_[light];
-    if (lamp.known && lamp.known_doppler == doppler.value) return lamp.colours;
-    if (!ready_) {
-      reflectance_ = fill_reflectance(context_, index_, u_, v_, t_, s_);
-      ready_ = true;
-    }
-    lamp.colours =
-        lamp_colours(context_.spectra->light(light), doppler, has_lobe(material_), reflectance_, s_);
-    lamp.known = true;
-    lamp.known_doppler = doppler.value;
-    return lamp.colours;
-  }
-
- private:
-  const ShadingContext& context_;
-  int index_;
-  const Material& material_;
-  std::vector<SheetScratch::Lamp>& lamps_;
-  Scratch& s_;
-  bool began_ = false;
-  DopplerFactor<Camera, Rest> doppler_;
-  int slot_ = 0;
-  double u_ = 0.0;
-  double v_ = 0.0;
-  double t_ = 0.0;
-  LinearRgb emitted_{0.0};
-  bool ready_ = false;  // wavelengths and reflectance are those of the point
-  Reflectance reflectance_;
-};
+}
 
 }  // namespace
 
-void SheetShader::light_spectra(const Material& material, int material_index, const Effects& effects) {
+// What the surfaces emit themselves, into rgb.
+void SheetShader::fill_emission(int index) {
   PointSheet& p = work_.points;
-  const std::vector<Light>& lights = tracer_.scene().lights;
-  // First what of each lamp reaches the points, then, point by point, its colours.
-  work_.lamp_light.resize(lights.size());
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    LaneReflection reflection;
-    SheetScratch::Lamp& lamp = work_.lamp_light[i];
-    lamp.arrives = light_arrives(i, effects, material, reflection);
-    if (!lamp.arrives) continue;
-    std::copy_n(p.lit, p.count, lamp.lit);
-    std::copy_n(p.irradiance, p.count, lamp.irradiance);
-    std::copy_n(p.specular, p.count, lamp.specular);
-    std::copy_n(p.lamp_doppler, p.count, lamp.doppler);
-  }
-  const double gamma = tracer_.hub().frames[frame()].from_camera.gamma();
-  const ShadingContext context = tracer_.shading();
-  ShiftedColours colours(context, material_index, work_, scratch_);
-  for (int lane = 0; lane < p.count; ++lane) {
-    const DopplerFactor<Camera, Rest> doppler{p.doppler[lane]};
-    colours.begin(doppler, p.points.u[lane], p.points.v[lane], own_time(lane));
-    LinearRgb sum = colours.emitted();
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-      SheetScratch::Lamp& lamp = work_.lamp_light[i];
-      if (!lamp.arrives || !(lamp.lit[lane] > 0.0)) continue;
-      const DopplerFactor<Rest, Source> lamp_doppler{lamp.doppler[lane]};
-      sum += reflected_colour(colours.under(i, lamp_doppler), lamp_doppler, lamp.irradiance[lane],
-                              lamp.specular[lane]);
+  LinearRgb colour{0.0};
+  for (int i = 0; i < p.padded; ++i) {
+    if (i == 0 || p.doppler[i] != p.doppler[i - 1]) {
+      shift_by({p.doppler[i]}, scratch_);
+      colour = emitted_colour(tracer_.shading(), index, 0.0, scratch_);
     }
-    const double factor =
-        radiance_factor(doppler, gamma, effects.towards_camera()) * wavelength_density_factor(doppler);
-    for (int k = 0; k < 3; ++k) p.rgb[k][lane] = factor * sum[k];
+    put(colour, p.rgb, std::uint64_t{1} << i);
+  }
+}
+
+// Of one point.
+LampColours SheetShader::colours_at(int lane, std::size_t light, int index) {
+  const PointSheet& p = work_.points;
+  const ShadingContext context = tracer_.shading();
+  const Material& material = context.scene->materials[static_cast<std::size_t>(index)];
+  SeenSpectrum seen;
+  if (!material.texture) {
+    seen = context.spectra->reflectance(index, static_cast<int>(p.odd_squares >> lane & 1U));
+  } else {
+    const auto at = static_cast<std::size_t>(lane);
+    work_.texels.resize(sheet_size);
+    work_.seen_texels.resize(sheet_size);
+    if ((work_.known_texels >> at & 1U) == 0) {
+      work_.seen_texels[at] =
+          seen_reflectance(context, index, p.points.u[lane], p.points.v[lane], 0.0, work_.texels[at]);
+      work_.known_texels |= std::uint64_t{1} << at;
+    }
+    seen = work_.seen_texels[at];
+  }
+  shift_by({p.doppler[lane]}, scratch_);
+  return lamp_colours(context.spectra->light(light), {p.lamp_doppler[lane]}, material.specular > 0.0,
+                      fill_reflectance(seen, scratch_), scratch_);
+}
+
+// Of those points where light and reflectance are looked up, which it returns, into `lamp` and `diffuse`.
+std::uint64_t SheetShader::look_up(std::size_t light, int index, std::uint64_t points, bool has_lobe) {
+  PointSheet& p = work_.points;
+  const SceneSpectra& spectra = *tracer_.shading().spectra;
+  const SeenSpectrum lamp = spectra.light(light);
+  const SpectralKernels& kernels = *scratch_.kernels;
+  ReflectedLight& reflected = scratch_.reflected;
+  for (int i = 0; i < p.padded; ++i) p.shift[i] = p.lamp_doppler[i] * p.doppler[i];
+  double* const film[4] = {p.lamp[0], p.lamp[1], p.lamp[2], p.lamp[3]};
+  const std::uint64_t known = LightRows::films(*lamp.spectrum, p.shift, points, film, kernels);
+  if (known == 0) return 0;
+  SeenSpectrum seen[2];
+  bool is_grey[2] = {false, false};
+  std::uint64_t done = 0;
+  for (const int slot : {0, 1}) {
+    const std::uint64_t its = known & (slot == 0 ? ~p.odd_squares : p.odd_squares);
+    if (its == 0) continue;
+    seen[slot] = spectra.reflectance(index, slot);
+    is_grey[slot] = seen[slot].spectrum->is_grey();
+    if (!is_grey[slot] && seen[slot].spectrum->has_features()) continue;
+    done |= its;
+    if (is_grey[slot]) continue;
+    const ReflectedLight::Pair pair{std::uint64_t{seen[slot].number} << 32 | lamp.number, lamp.spectrum,
+                                    seen[slot].spectrum, seen[slot].set};
+    reflected.per_luminance(pair, p.doppler, p.lamp_doppler, lamp.one_lamp_doppler, p.lamp[3], its,
+                            {p.diffuse[0], p.diffuse[1], p.diffuse[2]}, kernels);
+  }
+  if (lamp.spectrum->shape() && (has_lobe || is_grey[0] || is_grey[1])) {
+    alignas(64) double ones[sheet_size];
+    std::ranges::fill(ones, 1.0);
+    reflected.per_luminance({lamp.number, lamp.spectrum, nullptr, lamp.set}, ones, p.shift, false, p.lamp[3],
+                            known, {p.lamp[0], p.lamp[1], p.lamp[2]}, kernels);
+  }
+  for (const int slot : {0, 1}) {
+    if (!is_grey[slot]) continue;
+    const double grey = seen[slot].spectrum->at(visible_begin_nm);
+    std::uint64_t its = known & (slot == 0 ? ~p.odd_squares : p.odd_squares);
+    for (; its != 0; its &= its - 1) {
+      const int i = __builtin_ctzll(its);
+      for (int k = 0; k < 3; ++k) p.diffuse[k][i] = grey * p.lamp[k][i];
+    }
+  }
+  return done;
+}
+
+// What the camera's wavelengths make of the material and a lamp of unit strength, where it is lit.
+void SheetShader::fill_shifted(std::size_t light, int index, LaneReflection& reflection) {
+  PointSheet& p = work_.points;
+  const Material& material = tracer_.scene().materials[static_cast<std::size_t>(index)];
+  const bool has_lobe = material.specular > 0.0;
+  const std::uint64_t lit = lit_points(), odd = lit & p.odd_squares;
+  const auto same = [&](const double* numbers) {
+    return sheets_.kernels().same(numbers, p.count, numbers[0]) == first_bits(p.count);
+  };
+  reflection.shifted = true;
+  reflection.same_lamp = !has_lobe;
+  std::uint64_t left = lit;
+  if (!material.texture && same(p.doppler) && same(p.lamp_doppler)) {
+    // As all points of a surface that rests relative to the camera and the lamp.
+    reflection.same_lamp = true;
+    reflection.same_diffuse = odd == 0 || odd == lit;
+    for (const std::uint64_t its : {lit & ~odd, odd}) {
+      if (its == 0) continue;
+      const LampColours colours = colours_at(__builtin_ctzll(its), light, index);
+      for (int k = 0; k < 3; ++k) {
+        reflection.lamp[k] = colours.whole[k];
+        reflection.diffuse[k] = colours.reflected[k];
+      }
+      if (!reflection.same_diffuse) put(colours.reflected, p.diffuse, its);
+    }
+    return;
+  }
+  if (!material.texture) left &= ~look_up(light, index, lit, has_lobe);
+  for (; left != 0; left &= left - 1) {
+    const int i = __builtin_ctzll(left);
+    const LampColours colours = colours_at(i, light, index);
+    put(colours.reflected, p.diffuse, std::uint64_t{1} << i);
+    put(colours.whole, p.lamp, std::uint64_t{1} << i);
   }
 }
 

@@ -83,7 +83,7 @@ class SheetPainter {
       std::uint64_t left = first_bits(sheet.rays.count);
       while (left != 0) {
         const double who = sheet.hits.who[__builtin_ctzll(left)];
-        const std::uint64_t mask = left & scene_.kernels().same(sheet.hits, sheet.rays.count, who);
+        const std::uint64_t mask = left & scene_.kernels().same(sheet.hits.who, sheet.rays.count, who);
         left &= ~mask;
         if (who < 0.0) {
           without_surface(sheet, mask, who == far_hit);
@@ -123,6 +123,17 @@ class SheetPainter {
     if (!far && !records_ && !sky.emits) {
       for (; mask != 0; mask &= mask - 1) {
         light_.set_colour(static_cast<std::size_t>(sheet.place[__builtin_ctzll(mask)]), LinearRgb{0.0});
+      }
+      return;
+    }
+    const auto frame = static_cast<std::size_t>(sky.frame);
+    if (!far && !records_ && !tracer_.hub().frames[frame].from_camera.is_robust()) {
+      shader_.shade_sky(sheet.rays, mask, *sheet.effects);
+      const auto& rgb = work_.points.rgb;
+      for (; mask != 0; mask &= mask - 1) {
+        const int lane = __builtin_ctzll(mask);
+        light_.set_colour(static_cast<std::size_t>(sheet.place[lane]),
+                          {rgb[0][lane], rgb[1][lane], rgb[2][lane]});
       }
       return;
     }
@@ -199,12 +210,14 @@ class SheetPainter {
   // The colours of the points gathered.
   void paint_points(const Effects& effects) {
     const PointSheet& p = work_.points;
-    if (!shader_.in_lanes()) {
+    const bool lanes = shader_.in_lanes();
+    const bool one_material = lanes && shader_.resolve();
+    if (!lanes || shader_.is_too_fast()) {
       for (int i = 0; i < p.count; ++i) {
         const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
         one_ray(sheet, p.lane[i] % sheet_size, shader_.hit(i));
       }
-    } else if (shader_.resolve() || !colours_) {
+    } else if (one_material || !colours_) {
       if (colours_) shader_.shade(effects);
       put_colours();
     } else {
@@ -236,9 +249,8 @@ class SheetPainter {
 
   void put_colours() {
     const PointSheet& p = work_.points;
-    for (int i = 0; i < p.count && colours_; ++i) {
-      if (p.hits->is_unresolved(i)) ++scratch_.counts.unresolved;
-    }
+    const std::uint64_t unresolved = colours_ ? p.unresolved & first_bits(p.count) : 0;
+    scratch_.counts.unresolved += static_cast<std::uint64_t>(__builtin_popcountll(unresolved));
     if (p.whole >= 0 && !records_) {
       const int first = work_.sheets[static_cast<std::size_t>(p.whole)].place[0];  // of 64 neighbours
       for (std::size_t k = 0; k < 3; ++k) std::copy_n(p.rgb[k], sheet_size, light_.rgb[k].data() + first);

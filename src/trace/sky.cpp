@@ -2,23 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "backlight/film/lane_texture.h"
 #include "shading_steps.h"
 
 namespace backlight {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-
-// Equirectangular as an equirectangular camera looking along +z with y up would have made it: u = 1/2 at +z,
-// growing towards -x (its right), v = 0 at +y.
-LinearRgb texture_at(const Sky& sky, const Vec3& direction) {
-  const Vec3 s = direction / glm::length(direction);
-  const double u = 0.5 + std::atan2(-s.x, s.z) / (2.0 * pi);
-  const double v = std::acos(std::clamp(s.y, -1.0, 1.0)) / pi;
-  return sky.texture_scale * sky.texture->sample(u, v, TextureEdge::clamp);
-}
 
 // The direction in the camera's frame in which a star at infinity is seen, and the frequency ratio.
 struct SeenStar {
@@ -51,16 +40,22 @@ LinearRgb light_of(const Star& star, double illuminance, DopplerFactor<Camera, R
 
 }  // namespace
 
-Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray) {
-  if (!sky.emits) return {};
-  return {sky.texture ? texture_at(sky, ray.direction) : sky.radiance.rgb};
+LinearRgb sky_texel(const Sky& sky, double u, double v) {
+  return sky.texture_scale * sky.texture->sample(u, v, TextureEdge::clamp);
 }
 
-LinearRgb sky_shifted(const ShadingContext& context, const RestRayEvents& ray, Scratch& s) {
+Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray) {
+  if (!sky.emits) return {};
+  if (!sky.texture) return {sky.radiance.rgb};
+  const LaneSkyPlace<Lanes<1>> place({ray.direction.x, ray.direction.y, ray.direction.z});
+  return {sky_texel(sky, place.u.v, place.v.v)};
+}
+
+LinearRgb sky_shifted(const ShadingContext& context, const Radiance<Rest>& radiance, Scratch& s) {
   const Sky& sky = context.scene->sky;
   if (!sky.emits) return LinearRgb{0.0};
   if (!sky.texture) return shifted_colour(context.spectra->sky(), s);
-  return shifted_rgb(context, glm::max(texture_at(sky, ray.direction), 0.0), s);
+  return shifted_rgb(context, glm::max(radiance.rgb, 0.0), s);
 }
 
 std::vector<StarImage> star_images(const Scene& scene, const Hub& hub, const WavelengthSet& wavelengths) {

@@ -18,18 +18,20 @@ class SheetMaker {
   // The sheets' order is that of the pixels, and does not change a bit.
   void make(std::span<const TilePixel> pixels, std::int64_t image_number, int sample) {
     const int samples = scene_.film.samples;
+    const SampleRow row = sample_row(scene_.film.seed, image_number, sample);
     make(pixels.size(), [&](std::size_t begin) {
       const TilePixel* const of = pixels.data() + begin;
       for (int i = 0; i < count_ && samples == 1; ++i) {  // their centres, in vectors of the compiler's
         x_[i] = of[i].x + 0.5;
         y_[i] = of[i].y + 0.5;
       }
-      for (int i = 0; i < count_ && samples > 1; ++i) {
-        const ImagePoint point =
-            sample_point({scene_.film.seed, image_number, of[i].x, of[i].y}, sample, samples);
-        x_[i] = point.x;
-        y_[i] = point.y;
+      if (samples == 1) return;
+      int column[sheet_size]{}, line[sheet_size]{};
+      for (int i = 0; i < count_; ++i) {
+        column[i] = of[i].x;
+        line[i] = of[i].y;
       }
+      kernels_.sample(row, column, line, x_, y_);
     });
   }
 

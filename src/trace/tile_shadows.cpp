@@ -33,7 +33,7 @@ const LampTable& SheetShader::occluders_of_tile(std::size_t light) {
 }
 
 void SheetShader::list_for_tile(std::size_t light, LampTable& list) const {
-  const LaneLamp lamp = lane_lamp(light, tracer_.scene().lights[light].frame);
+  const LaneLamp& lamp = lane_lamp(light, tracer_.scene().lights[light].frame);
   LightSpan span;
   for (const auto& sheet : work_.sheets) {
     if (sheet.effects == effects_) sheets_.kernels().gather(lamp, sheet.rays, sheet.hits, nullptr, span);
@@ -115,7 +115,7 @@ void SheetShader::try_entry(std::size_t light, int index, std::uint64_t candidat
   const RaySheet* rays = &p.shadow;
   std::uint64_t open = 0;
   if (&entry == entry_) {
-    open = candidates & p.lit_bits();
+    open = candidates & lit_points();
   } else {
     open = sheets_.kernels().cast(sheets_.eye(eye_).frames[at], sheets_.lamp(light).to_frame[at], candidates,
                                   p, work_.rays);

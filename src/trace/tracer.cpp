@@ -84,8 +84,8 @@ LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Eff
     return carry(radiance, doppler, gamma, factors).rgb;
   }
   shift_by(doppler, scratch);
-  const LinearRgb radiance =
-      hit.found() ? shade_shifted(context, point, effects, scratch) : sky_shifted(context, events, scratch);
+  const LinearRgb radiance = hit.found() ? shade_shifted(context, point, effects, scratch)
+                                         : sky_shifted(context, sky_radiance(scene_->sky, events), scratch);
   return radiance_factor(doppler, gamma, factors) * wavelength_density_factor(doppler) * radiance;
 }
 

@@ -16,7 +16,8 @@ fps = 4
 frames = [1, 5]
 [params]
 still = "2*0.25"
-going = "still + 0.1*t"
+going = "still + 0.1*image_time"
+waving = "0.1*t"
 [frame.train]
 beta = [0.3, 0, 0.1]
 [frame.tram]
@@ -58,7 +59,7 @@ std::vector<Case> cases() {
   return {
       {"nothing changes", still, 4, 0},
       {"frames move, and fall together", still + sphere_at(2, 1, "frame = \"tram\""), 5, 0},
-      {"one turns", still + torus("position = [2, 0, 0]\nrotate = [\"90*t\", 0, 0]"), 2, 3},
+      {"one turns", still + torus("position = [2, 0, 0]\nrotate = [\"90*image_time\", 0, 0]"), 2, 3},
       {"by a parameter", still + torus("position = [\"going\", 2, 0]\nframe = \"train\""), 3, 2},
       {"one gets faster", still + sphere_at(2, 0, "beta = [0, \"0.3*image_time\", 0]"), 4, 1},
       {"more copies",
@@ -76,7 +77,7 @@ std::vector<Case> cases() {
       {"a material within an object",
        still + sphere_at(2, 1, "material = { color = [\"image_time\", 0.5, 0.5] }"), 5, 0, false},
       {"a material by its own time",
-       still + sphere_at(2, 1, "material = { color = [\"t\", 0.5, 0.5], emission = \"sin(going)\" }"), 5, 0},
+       still + sphere_at(2, 1, "material = { color = [\"t\", 0.5, 0.5], emission = \"sin(waving)\" }"), 5, 0},
       {"a solid",
        still + "[[object]]\nshape = \"difference\"\nposition = [2, 0, 0]\n[[object.part]]\nshape = \"box\"\n"
                "size = [1, 1, 1]\n[[object.part]]\nshape = \"sphere\"\nradius = \"0.5 + 0.1*image_time\"\n"

@@ -62,7 +62,7 @@ TEST_F(Output, OfOneInstantIsNotNumbered) {
 TEST_F(Output, OfAFrameIsThatOfItsTime) {
   write_scene("scene.toml",
               std::string(animation) +
-                  "[[object]]\nshape = \"box\"\nsize = [1, 1, 1]\nposition = [\"20*t\", 0, 0]\n");
+                  "[[object]]\nshape = \"box\"\nsize = [1, 1, 1]\nposition = [\"20*image_time\", 0, 0]\n");
   expect_success({"scene.toml", "-f", "2", "-s", "2", "-o", "frame.exr"});
   expect_success({"scene.toml", "--time", "0.1", "-s", "2", "-o", "time.exr"});
   expect_success({"scene.toml", "--time", "0.2", "-s", "2", "-o", "later.exr"});

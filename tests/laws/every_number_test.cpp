@@ -110,12 +110,12 @@ void add_picture(std::vector<Case>& all) {
   all.push_back({"camera.fov", plain_red, {"camera.fov=@"}, "60", "48"});
   all.push_back({"camera.stereo.separation", plain_red, {"camera.stereo={ separation = @ }"}, "0.25", "0.5"});
   const std::string ship = "[frame.ship]\nbeta = [0, 0, 0.125]\n" + plain_red;
-  all.push_back({"camera.rocket.acceleration",
+  all.push_back({"rocket.acceleration",
                  ship,
                  {"camera.rocket={ acceleration = @, along = [0, 0, 1] }", "camera.position=[0, 0.5, -9]"},
                  "0.25",
                  "0.5"});
-  all.push_back({"camera.rocket.along",
+  all.push_back({"rocket.along",
                  ship,
                  {"camera.rocket={ acceleration = 0.25, along = @ }", "camera.position=[0, 0.5, -9]"},
                  "[0, 0, 1]",
@@ -290,6 +290,8 @@ const std::map<std::string, std::string>& exceptions() {
       {"light.distant.irradiance", "t is the lamp's own time"},
       {"light.ambient.radiance", "t is the time of the surface's frame"},
       {"object.implicit.f", "t is the object's own time"},
+      {"object.implicit.matter_velocity", "t is the object's own time"},
+      {"object.visible", "t is the matter's own time, and no number hides it"},
   };
   return all;
 }
@@ -334,7 +336,7 @@ std::string base_for(const std::string& key) {
   std::string text = base;
   const std::set<std::string> motion{"camera.velocity", "camera.beta",     "camera.gamma",
                                      "camera.celerity", "camera.rapidity", "camera.along"};
-  if (motion.contains(key) || key.starts_with("camera.rocket")) remove(text, "velocity = [0, 0, 0]\n");
+  if (motion.contains(key) || key.starts_with("rocket")) remove(text, "velocity = [0, 0, 0]\n");
   if (key == "background.temperature") remove(text, "[background]\ncolor = [0.1, 0.2, 0.4]\n");
   return text;
 }

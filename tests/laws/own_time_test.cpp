@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "backlight/colour/spectrum.h"
 #include "rendering.h"
@@ -23,6 +25,9 @@ std::string start(const std::string& params = {}) {
 const std::string at_rest = "position = [0, 0, 0]\n";
 /// At 0.9 c, obliquely; its centre is seen where that of the other is.
 const std::string moving = "position = [2.76, 1.38, -2.76]\nbeta = [0.6, 0.3, -0.6]\n";
+
+/// On a path, turning: its matter has no common clock.
+const std::string swinging = "position = [\"0.6*sin(1.5*t)\", 0.2, 0]\nrotate = [30, \"40*t\", 0]\n";
 
 std::string ball(const std::string& motion, const std::string& material) {
   return "[[object]]\nshape = \"sphere\"\nradius = 1.2\n" + motion + "material = { " + material + " }\n";
@@ -64,7 +69,7 @@ double blink(double t) {
 }
 
 TEST(OwnTime, EmissionIsOfEachPointsOwnTimeTimesDoppler) {
-  for (const std::string& motion : {at_rest, moving}) {
+  for (const std::string& motion : {at_rest, moving, swinging}) {
     const Rendering image = render_text(start() + ball(motion, blinking), three_colours);
     Worst error;
     const double spread = on_the_ball(image, [&](int x, int y, double t) {
@@ -98,7 +103,7 @@ TEST(OwnTime, ShiftedEmissionIsThatOfTheSteadyOneTimesTheStrength) {
 TEST(OwnTime, TemperatureIsOfEachPointsOwnTimeTimesDoppler) {
   const std::string material =
       "temperature = \"5000 + 2500*sin(6*t)\", absolute = true, emission = 1e-9, color = [0, 0, 0]";
-  for (const std::string& motion : {at_rest, moving}) {
+  for (const std::string& motion : {at_rest, moving, swinging}) {
     for (const bool shifted : {true, false}) {
       const Rendering image =
           render_text(start() + ball(motion, material), shifted ? RenderChoices{} : three_colours);
@@ -136,7 +141,7 @@ TEST(OwnTime, BodiesOfAnyTemperatureAreAsBrightAsTheyAreSaidToBe) {
 TEST(OwnTime, ReflectanceIsOfEachPointsOwnTime) {
   const std::string formula = "\"0.5 + 0.4*sin(9*t)\"";
   const std::string grey = "[" + formula + ", " + formula + ", " + formula + "]";
-  for (const std::string& motion : {at_rest, moving}) {
+  for (const std::string& motion : {at_rest, moving, swinging}) {
     for (const RenderChoices& choices : {RenderChoices{}, three_colours}) {
       const Rendering white = render_text(start() + ball(motion, "color = [1, 1, 1]"), choices);
       for (const std::string& material :
@@ -211,15 +216,21 @@ TEST(OwnTime, ParametersAreFormulasWhereTheyStand) {
     for (std::size_t at; (at = written.find('@')) != std::string::npos;) written.replace(at, 1, "(2*t*0.5)");
     return render_text(start() + written);
   };
-  for (const std::string& text :
-       {ball(moving, "emission = \"1 + sin(9*@)\""),
-        ball(moving, "emission = 1, temperature = \"4000 + 900*sin(@)\""),
-        ball(moving, "color = [0.4, \"0.5 + 0.4*sin(9*@)\", 0.1]"),
-        ball(moving, "color = [0.4, 0.3, 0.1]") +
-            "[[light]]\nposition = [2, 3, -4]\nbeta = [0.1, 0.2, 0.3]\nintensity = \"9 + 5*sin(9*@)\"\n",
-        "[[object]]\nshape = \"implicit\"\nf = \"x^2 + y^2 + z^2 - 1 - 0.3*sin(3*@)\"\n"
-        "bounds = [[-2, -2, -2], [2, 2, 2]]\n" +
-            moving}) {
+  const std::vector<std::string> texts{
+      ball(moving, "emission = \"1 + sin(9*@)\""),
+      ball(moving, "emission = 1, temperature = \"4000 + 900*sin(@)\""),
+      ball(moving, "color = [0.4, \"0.5 + 0.4*sin(9*@)\", 0.1]"),
+      ball(moving, "color = [0.4, 0.3, 0.1]") +
+          "[[light]]\nposition = [2, 3, -4]\nbeta = [0.1, 0.2, 0.3]\nintensity = \"9 + 5*sin(9*@)\"\n",
+      "[[object]]\nshape = \"sphere\"\nradius = 1\nposition = [\"0.6*sin(1.5*@)\", 0, 0]\n"
+      "scale = \"1 + 0.1*sin(@)\"\nvisible = \"sin(7*@)\"\n",
+      "[[object]]\nshape = \"implicit\"\nf = \"x^2 + y^2 + z^2 - 1\"\nmatter_velocity = [0, "
+      "\"0.1*sin(@)\", 0]\n"
+      "bounds = [[-2, -2, -2], [2, 2, 2]]\n",
+      "[[object]]\nshape = \"implicit\"\nf = \"x^2 + y^2 + z^2 - 1 - 0.3*sin(3*@)\"\n"
+      "bounds = [[-2, -2, -2], [2, 2, 2]]\n" +
+          moving};
+  for (const std::string& text : texts) {
     EXPECT_TRUE(same_bits(named(text), plain(text))) << text;
   }
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "backlight/camera/projection.h"
+#include "backlight/camera/sample_digits.h"
 
 namespace backlight {
 
@@ -22,6 +23,8 @@ struct SampleKey {
 /// Burley 2020). The first 2^k samples are one in each of 2^k equal rectangles, for every shape that
 /// 2^i × 2^(k - i) of them can have: any first ones are spread evenly. The first 2^32 are different.
 ImagePoint sample_point(const SampleKey& key, int index, int count);
+
+SampleRow sample_row(std::uint64_t seed, std::int64_t image, int index);
 
 /// The same in the unit square, whatever the count.
 ImagePoint unit_sample(const SampleKey& key, int index);

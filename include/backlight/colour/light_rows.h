@@ -28,13 +28,7 @@ class SplineWeights;
 /// one are made when they are first asked for, from any thread, and depend on nothing but the row's number.
 class LightRows {
  public:
-  /// What one row has, of light divided by e^log_scale.
-  struct Row {
-    double log_scale = 0.0;
-    double log_slope = 0.0;  ///< by the shift, or by the temperature
-    LinearRgb film{0.0};     ///< colour of the whole light
-    LinearRgb film_slope{0.0};
-  };
+  using Row = LightRow;
 
   /// What a reflectance makes of that.
   struct Weights {
@@ -85,6 +79,11 @@ class LightRows {
 
   /// Spectrum::blackbody(kelvin) with its scale looked up, which else is a sum: for use at every hit.
   [[nodiscard]] static Spectrum blackbody(double kelvin);
+  /// Of the points (up to 64, one bit each) those at whose shifts the place of a light is such that
+  /// ReflectedLight has it; its film() there, as three arrays, and in a fourth the luminances. Arrays have
+  /// room for whole registers of eight.
+  static std::uint64_t films(const Spectrum& light, const double* shift, std::uint64_t points,
+                             double* const (&film)[4], const SpectralKernels& kernels);
 
   [[nodiscard]] Weighting weighting(const Place& place) const;
 

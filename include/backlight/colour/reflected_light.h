@@ -32,13 +32,18 @@ class ReflectedLight {
   /// or more than 4 million.
   [[nodiscard]] static bool has(const LightRows::Place& place);
 
+  /// At points (up to 64, one bit each), `factor` times it. Arrays have room for whole registers of eight.
+  void per_luminance(const Pair& pair, const double* doppler, const double* lamp_doppler,
+                     bool one_lamp_doppler, const double* factor, std::uint64_t points,
+                     double* const (&colour)[3], const SpectralKernels& kernels);
+
   /// At `doppler` > 0 times the camera's wavelengths for the reflectance, and `lamp_doppler` > 0 times those
   /// for the light. `one_lamp_doppler`: many points have that of the lamp in common, so that it makes a node.
   [[nodiscard]] LinearRgb per_luminance(const Pair& pair, double doppler, double lamp_doppler,
                                         bool one_lamp_doppler, const SpectralKernels& kernels);
 
  private:
-  static constexpr int order = 4;
+  static constexpr int order = LightCell::order;
   // The nodes around a Doppler factor: four, or itself if it is one.
   struct Axis {
     std::uint64_t key;
@@ -56,20 +61,14 @@ class ReflectedLight {
     Key key;
     LinearRgb colour{0.0};
   };
-  // Between nodes: their colours, and what makes the shares of each.
   struct Cell {
     Key key;
-    int count = 0;
-    int lamp_count = 0;
-    double node[order], divisor[order];
-    double lamp_node[order], lamp_divisor[order];
-    double colour[order][order][4];  // by node of the lamp, node, channel
+    LightCell light;
   };
   static Axis nodes_around(double doppler, bool is_node);
-  static void prepare(const Axis& axis, double (&node)[order], double (&divisor)[order]);
-  static void fill_shares(const double (&node)[order], const double (&divisor)[order], int count, double at,
-                          double (&share)[order]);
-  void fill(Cell& cell, const Pair& pair, const Axis& axis, const Axis& lamp, const SpectralKernels& kernels);
+  static LightCell::Axis prepared(const Axis& axis);
+  void fill(LightCell& cell, const Pair& pair, const Axis& axis, const Axis& lamp,
+            const SpectralKernels& kernels);
 
   std::vector<Node> nodes_;
   std::vector<Cell> cells_;

@@ -1,7 +1,11 @@
-// Loops over the wavelengths of a spectrum, over lanes: several wavelengths in one instruction.
+// Loops over the wavelengths of a spectrum, and over points that lights reach, over lanes: several of them in
+// one instruction.
 #pragma once
 
+#include <cstdint>
+
 #include "backlight/base/instruction_sets.h"
+#include "backlight/colour/rgb.h"
 
 namespace backlight {
 
@@ -42,6 +46,26 @@ struct SplineForm {
   const double (*film_weights)[4];  ///< red, green, blue and 0 of each of the observer's samples
 };
 
+/// What LightRows has of a light at one shift or temperature, divided by e^log_scale.
+struct LightRow {
+  double log_scale = 0.0;
+  double log_slope = 0.0;  ///< by the shift, or by the temperature
+  LinearRgb film{0.0};     ///< colour of the whole light
+  LinearRgb film_slope{0.0};
+};
+
+/// What ReflectedLight has between nodes of the Doppler factors to the camera and from a lamp: four either
+/// way, or one; their colours, and what makes the shares of each.
+struct LightCell {
+  static constexpr int order = 4;
+  struct Axis {
+    int count = 0;
+    double node[order], divisor[order];
+  };
+  Axis camera, lamp;
+  double colour[order][order][3];  ///< by node of the lamp, node, channel
+};
+
 /// The kernels of one instruction set. All give the same bits.
 struct SpectralKernels {
   const char* name;
@@ -62,6 +86,13 @@ struct SpectralKernels {
   /// SplineWeights::fill under the 471 samples of a light; `work`: room for eight numbers a node.
   void (*spline_weights)(const SplineForm& form, const double* light, double* work,
                          double* const (&weights)[3], float* left_out);
+  /// LightRows::films of up to 64 points.
+  std::uint64_t (*films)(const SpectrumForm& light, const LightRow* daylight, const LightRow* bodies,
+                         const double* shift, std::uint64_t points, double* const (&film)[4]);
+  /// factor times the colour between the nodes of a cell, at those of up to 64 points that are in it, one bit
+  /// each.
+  std::uint64_t (*between_nodes)(const LightCell& cell, const double* doppler, const double* lamp_doppler,
+                                 const double* factor, std::uint64_t points, double* const (&colour)[3]);
 };
 
 /// The kernels, if this machine runs them; `baseline` always does.

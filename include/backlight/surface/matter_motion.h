@@ -70,6 +70,8 @@ class MatterMotion {
     Vec3 velocity;
   };
   [[nodiscard]] Centre centre(double time) const;
+  /// A bound on how far the centre's velocity is from this one between two times.
+  [[nodiscard]] double change_of_velocity(const Vec3& velocity, double from, double to) const;
 
  private:
   [[nodiscard]] Vec3 velocity_of(const Vec3& body_point, double time) const;

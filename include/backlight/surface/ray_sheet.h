@@ -53,7 +53,6 @@ struct SheetPoints {
   alignas(64) double v[sheet_size];
   int member[sheet_size];  ///< not set where a surface has but one
   /// Not set of surfaces that cannot move (SurfaceSet::moves()).
-  bool moves[sheet_size];
   double velocity[3][sheet_size];
   double own_time[sheet_size];
 };

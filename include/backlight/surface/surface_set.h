@@ -152,6 +152,8 @@ class SurfaceSet {
 
   [[nodiscard]] BoundingSphere bounds(int surface) const;
   [[nodiscard]] BoundingSphere bounds() const;  ///< of the whole set
+  /// Of all places at which light can have left the set that arrives at this event.
+  [[nodiscard]] BoundingSphere seen_from(const Vec3& place, double time) const;
   /// Of those surfaces that have bounds.
   [[nodiscard]] const BoundingSphere& bounds_of_bounded() const { return bounds_of_bounded_; }
 

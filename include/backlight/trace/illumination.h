@@ -34,6 +34,20 @@ double gamma_between(const SeenPoint& point, const LorentzTransform<Rest, From>&
 /// The point where this ray meets a surface.
 SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit);
 
+/// When a lamp on a path sent the light that arrives at an event: docs/physics.md equation (29). All in the
+/// lamp's base frame.
+struct LampMoment {
+  NullDirection<Source> direction;  ///< from the event to the lamp
+  double time = 0.0;
+  Vec3 velocity{0.0};  ///< the lamp's
+
+  /// Of `direction` in the frame of the lamp's velocity.
+  [[nodiscard]] double own_length() const;
+  /// By which its strength goes: its own time, if that matters.
+  [[nodiscard]] double strength_time(const Light& light) const;
+};
+LampMoment way_to_moving(const Light& light, const Vec3& place, double event_time);
+
 /// One lamp's light at a seen point, before it is known whether something is in the way.
 struct Arrival {
   DopplerFactor<Rest, Source> doppler;  ///< frequency at the surface over frequency at the lamp

@@ -8,11 +8,14 @@
 
 namespace backlight {
 
+/// Of its texture.
+LinearRgb sky_texel(const Sky& sky, double u, double v);
+
 /// Radiance of the sky in its own frame along this ray, as a film colour.
 Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray);
 
-/// The film colour with scratch.shift on the way.
-LinearRgb sky_shifted(const ShadingContext& context, const RestRayEvents& ray, Scratch& scratch);
+/// The same with scratch.shift on the way.
+LinearRgb sky_shifted(const ShadingContext& context, const Radiance<Rest>& radiance, Scratch& scratch);
 
 /// A star as the camera has it.
 struct StarImage {
