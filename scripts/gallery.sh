@@ -114,6 +114,24 @@ sheet street-lamp-flicker street-lamp-flicker 1-16x5 2 -r 380x253
 sheet rocket rocket 1,31,46,61,91,121 3 -r 345x194 -s 4
 sheet lattice-superluminal lattice-superluminal 1-6 3 -r 345x230
 
+# Matter that turns, swings and accelerates
+figure rolling-wheel rolling-wheel
+figure rolling-wheel-colours rolling-wheel "${all_effects[@]}"
+figure rolling-wheel-0.9c rolling-wheel -D params.v=0.9
+sheet rolling-wheels rolling-wheels 1 1
+sheet wheel-ant wheel-ant 1-61x12 3 -r 240x175
+figure ehrenfest ehrenfest
+figure turning-earth turning-earth
+figure saturn saturn
+sheet circling-lamp circling-lamp 1-131x26 3 -r 240x175
+sheet bell-rockets bell-rockets 1-37x12 2 -r 360x131 -s 4
+figure rindler-bow rindler-rocket -r 360x263 --camera bow
+figure rindler-stern rindler-rocket -r 360x263 --camera stern
+sheet clock-dice clock-dice 1-25x12 1 -r 720x270
+sheet light-clock light-clock 19-43x8 2 -r 360x203
+sheet ladder-barn ladder-barn 5,15,25,35 2 -r 360x203 --camera road
+sheet ladder-barn-aboard ladder-barn 4,18,32,45 2 -r 360x203 --camera ladder
+
 for name in "${wanted[@]}"; do
   case " ${known[*]} " in
     *" $name "*) ;;

@@ -40,6 +40,11 @@ for scene in scenes/*.toml tests/golden/scenes/*.toml; do
   case $name in
     street-lamp-flicker) render "$scene" "$name.####.exr" 64x36 -f 1-2 ;;  # by the lamp's own clock
     rocket) render "$scene" "$name.####.exr" 64x36 -f 61,121 ;;  # on its way, and at 0.96 c
+    wheel-ant) render "$scene" "$name.####.exr" 64x36 -f 1,37 ;;  # at the top and at the bottom of the wheel
+    circling-lamp) render "$scene" "$name.####.exr" 64x36 -f 1,131 ;;  # rings on the wall, and a new one
+    bell-rockets) render "$scene" "$name.####.exr" 64x36 -f 1,25 ;;  # with the string, and without
+    clock-dice | light-clock | rolling-wheels) render "$scene" "$name.####.exr" 64x36 -f 13 ;;
+    ladder-barn) render "$scene" "$name.####.exr" 64x36 -f 25 ;;  # both doors are shut
     *) render "$scene" "$name.exr" ;;
   esac
 done

@@ -5,6 +5,7 @@
 
 #include "compile_motion.h"
 #include "motion_levels.h"
+#include "speed_proof.h"
 #include "words.h"
 
 namespace backlight {
@@ -88,6 +89,13 @@ bool ride(Compilation& c, const TableView& camera) {
       camera.error(
           key, std::string("a camera aboard an object moves with that, and has no '") + key + "' besides");
     }
+  }
+  if (const Node* place = camera.node_of("position");
+      place != nullptr && uses_time(c.values.description, *place)) {
+    camera.error(
+        "position", "aboard, the camera is fixed in one place, and 'position' may not depend on t",
+        "image_time instead of t puts it somewhere else for each image; what walks about can be an object, "
+        "and the camera aboard that");
   }
   std::vector<std::string> names;
   const Node* node = object_called(c, camera.text("aboard"), names);

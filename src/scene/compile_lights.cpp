@@ -51,6 +51,9 @@ void compile_light(Compilation& c, const Node& node) {
   const RestPlace place = c.frames.rest_of(table, table.vector("position"));
   light.frame = place.frame;
   light.position = place.position;
+  if (has_motion(table)) {
+    check_motions_apart(table, c.scene.frames[static_cast<std::size_t>(place.frame)].motion.celerity);
+  }
   if (is_in_motion(table)) light.motion = path_of(c, table, place.frame);
   light.shadows = table.boolean("shadows");
   if (const Node* type = table.node_of("type"); type != nullptr && !type->valid()) return;

@@ -7,11 +7,13 @@
 
 #include "backlight/expression/enclosure.h"
 #include "backlight/surface/implicit_surface.h"
+#include "body_formula.h"
 #include "camera_motion.h"
 #include "compile_formulas.h"
 #include "compile_shapes.h"
 #include "motion_levels.h"
 #include "speed_proof.h"
+#include "turning.h"
 #include "words.h"
 
 namespace backlight {
@@ -50,33 +52,6 @@ bool blends_move_as_a_whole(Compilation& c, const TableView& table) {
   return good;
 }
 
-/// Everywhere within a body's own box f is as it was, and outside it is undefined: an open surface ends
-/// there.
-Expression within_box(const Expression& f, const Vec3& low, const Vec3& high, bool closed) {
-  std::string inside;
-  const char* const names[3] = {"x", "y", "z"};
-  for (int i = 0; i < 3; ++i) {
-    const std::string middle = number_text(0.5 * low[i] + 0.5 * high[i]);
-    const std::string half = number_text(0.5 * high[i] - 0.5 * low[i]);
-    inside += std::string(i > 0 ? ", " : "") + "abs(" + names[i] + " - (" + middle + ")) - " + half;
-  }
-  const std::string box = "max(" + inside + ")";
-  const std::string text = closed ? "max(f, " + box + ")" : "f + 0*sqrt(-" + box + ")";
-  const Expression outer = std::get<Expression>(Expression::parse(text, {"x", "y", "z", "t", "f"}));
-  Composer composer(ImplicitFormula::variables);
-  std::vector<Composer::Node> at;
-  for (std::size_t i = 0; i < ImplicitFormula::variables; ++i) at.push_back(composer.variable(i));
-  at.push_back(composer.insert(f, at));
-  return composer.expression(composer.insert(outer, at), f.text());
-}
-
-Expression of_text(const std::string& text, const std::vector<std::string>& names,
-                   const std::vector<double>& values) {
-  std::vector<std::string> variables{"x", "y", "z", "t"};
-  variables.insert(variables.end(), names.begin(), names.end());
-  return std::get<Expression>(Expression::parse(text, variables)).bind(ImplicitFormula::variables, values);
-}
-
 /// About the body's origin.
 MatterMotion::Ball ball_of(const MatterMotion::Body& body, const SpeedProof& proof, double radius, double c) {
   MatterMotion::Ball ball{{}, radius, proof.centre_speed, proof.begins * c};
@@ -87,16 +62,6 @@ MatterMotion::Ball ball_of(const MatterMotion::Body& body, const SpeedProof& pro
     ball.path[i] = composer.expression(composer.insert(body.place[i], origin), "");
   }
   return ball;
-}
-
-/// The levels with what depends on t put to 0.
-std::vector<MotionLevel> at_rest(std::vector<MotionLevel> levels) {
-  for (MotionLevel& level : levels) {
-    for (Expression& angle : level.rotate) {
-      if (!angle.constant()) angle = constant_formulas(Vec3{0.0})[0];
-    }
-  }
-  return levels;
 }
 
 using Reach = std::array<Interval, 3>;
@@ -111,61 +76,6 @@ Reach box_of(const Shape& shape) {
   }
   return {Interval{low.x, high.x, Continuity::continuous}, Interval{low.y, high.y, Continuity::continuous},
           Interval{low.z, high.z, Continuity::continuous}};
-}
-
-/// Of levels whose angles alone depend on t, which are put to 0; nothing for others.
-std::optional<Placement> placement_at_rest(const std::vector<MotionLevel>& levels) {
-  Placement placement;
-  for (const MotionLevel& level : at_rest(levels)) {
-    const auto position = constants_of(level.position), rotate = constants_of(level.rotate),
-               scale = constants_of(level.scale);
-    if (level.rocket || !position || !scale) return std::nullopt;
-    placement = placement.around(Placement(*position, *rotate, *scale));
-  }
-  return placement;
-}
-
-/// Whether all that moves is one angle, and the shape with all that is within it is a surface of revolution
-/// about that axis (a plane about its normal, a sphere about any line through its centre).
-bool turns_in_itself(const Shape& shape, const std::vector<MotionLevel>& levels) {
-  const auto moving = std::ranges::find_if(levels, &MotionLevel::moves);
-  if (moving == levels.end() ||
-      std::any_of(moving + 1, levels.end(), [](const auto& l) { return l.moves(); })) {
-    return false;
-  }
-  std::vector<int> angles;
-  for (int i = 0; i < 3; ++i) {
-    if (!moving->rotate[static_cast<std::size_t>(i)].constant()) angles.push_back(i);
-  }
-  const auto scale = constants_of(moving->scale);
-  if (angles.size() != 1 || !scale || !constants_of(moving->position) || moving->rocket) return false;
-  Vec3 before{0.0};  // the angles of rotations that come before
-  for (int i = 0; i < angles.front(); ++i)
-    before[i] = *moving->rotate[static_cast<std::size_t>(i)].constant();
-  const auto inner = placement_at_rest({moving + 1, levels.end()});
-  if (!inner) return false;
-  const Placement within = Placement(Vec3{0.0}, before, *scale).around(*inner);
-  const auto is_small = [](double x) { return std::abs(x) <= 1e-14; };
-  Vec3 axis{0.0};
-  axis[angles.front()] = 1.0;
-  if (!is_small(glm::length(glm::cross(axis, within.position())))) return false;
-  const Mat3& m = within.rest_from_local();
-  const double x = glm::length(m[0]), y = glm::length(m[1]), z = glm::length(m[2]);
-  const bool square = is_small(glm::dot(m[0], m[1]) / (x * y)) && is_small(glm::dot(m[1], m[2]) / (y * z)) &&
-                      is_small(glm::dot(m[2], m[0]) / (z * x));
-  if (!square || !is_small(x / z - 1.0)) return false;
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      return is_small(x / y - 1.0) || is_small(glm::length(glm::cross(axis, m[1])) / y);
-    case ShapeKind::cylinder:
-    case ShapeKind::cone:
-    case ShapeKind::torus:
-    case ShapeKind::disk:
-    case ShapeKind::plane:
-      return is_small(glm::length(glm::cross(axis, m[1])) / y);
-    default:
-      return false;
-  }
 }
 
 /// Whether anything that matter has by its own time depends on it: a material, its presence, the light around
@@ -184,6 +94,25 @@ bool lives_by_own_time(const Description& description, const Node& node, bool of
          });
 }
 
+/// The middle of where formulas of t ever are, which is taken off them: of what goes on forever nothing.
+Vec3 take_middle(std::array<Expression, 3>& formulas) {
+  Vec3 middle{0.0};
+  for (int i = 0; i < 3; ++i) {
+    Expression& formula = formulas[static_cast<std::size_t>(i)];
+    const Interval range = over_times(formula, -always, always).value;
+    constexpr double far_away = 1e9;
+    if (!(range.upper - range.lower < far_away)) continue;
+    middle[i] = 0.5 * range.lower + 0.5 * range.upper;
+    Composer composer(ImplicitFormula::variables);
+    const std::array<Composer::Node, 4> at{composer.variable(0), composer.variable(1), composer.variable(2),
+                                           composer.variable(3)};
+    const Composer::Node off =
+        composer.apply(Operation::subtract, composer.insert(formula, at), composer.constant(middle[i]));
+    formula = composer.expression(off, formula.text());
+  }
+  return middle;
+}
+
 class MotionCompiler {
  public:
   MotionCompiler(Compilation& c, const TableView& object, int frame)
@@ -197,12 +126,7 @@ class MotionCompiler {
     take_rocket(object_, c_.scene.c, whole);
     if (c_.values.diagnostics.error_count() > errors) return std::nullopt;
     MovingShape moving;
-    if (const auto at = constants_of(whole.position)) {
-      moving.placement = Placement(*at + offset, Vec3{0.0}, Vec3{1.0});
-      whole.position = constant_formulas(Vec3{0.0});
-    } else {
-      moving.placement = Placement(offset, Vec3{0.0}, Vec3{1.0});
-    }
+    moving.placement = Placement(offset + take_middle(whole.position), Vec3{0.0}, Vec3{1.0});
     offset_ = moving.placement.position();
     SolidTree tree;
     if (solid != nullptr) {
@@ -259,7 +183,7 @@ class MotionCompiler {
 
   std::optional<Shape> leaf_in_motion(const TableView& table, const Shape& shape,
                                       const std::vector<MotionLevel>& levels, bool closed) {
-    auto formula = body_formula(table, shape, closed);
+    auto formula = body_formula(c_, table, shape, closed);
     if (!formula) return std::nullopt;
     SurfaceSet one;
     one.add(shape, Placement{});
@@ -284,7 +208,7 @@ class MotionCompiler {
     }
     // Errors of its points are told by the size of its bounds, which those of a thing that leaves are not.
     constexpr double many_radii = 1e6;
-    const bool bounded = std::isinf(ball.begins) && glm::length(high - low) < many_radii * ball.radius;
+    const bool bounded = glm::length(high - low) < many_radii * ball.radius;
     if (!bounded) {
       low = Vec3{-std::numeric_limits<double>::infinity()};
       high = -low;
@@ -311,47 +235,8 @@ class MotionCompiler {
   /// For which it is proved.
   [[nodiscard]] Interval times_of(const SpeedProof& proof) const {
     if (std::isinf(proof.begins)) return {-always, always, Continuity::continuous};
-    return {proof.begins, prover_.last(), Continuity::continuous};
-  }
-
-  std::optional<Expression> body_formula(const TableView& table, const Shape& shape, bool closed) {
-    const auto& v = shape.values;
-    switch (shape.kind) {
-      case ShapeKind::sphere:
-        return of_text("x^2 + y^2 + z^2 - r^2", {"r"}, {v[0]});
-      case ShapeKind::box:
-        return of_text("max(abs(x) - a, abs(y) - b, abs(z) - c)", {"a", "b", "c"},
-                       {0.5 * v[0], 0.5 * v[1], 0.5 * v[2]});
-      case ShapeKind::cylinder:
-        return of_text("max(x^2 + z^2 - r^2, abs(y) - h)", {"r", "h"}, {v[0], 0.5 * v[1]});
-      case ShapeKind::cone:
-        return of_text("max(x^2 + z^2 - (m + k*y)^2, abs(y) - h)", {"m", "k", "h"},
-                       {0.5 * (v[0] + v[1]), (v[1] - v[0]) / v[2], 0.5 * v[2]});
-      case ShapeKind::torus:
-        return of_text("(sqrt(x^2 + z^2) - major)^2 + y^2 - minor^2", {"major", "minor"}, {v[0], v[1]});
-      case ShapeKind::disk:
-        return of_text("y + 0*sqrt(r^2 - x^2 - z^2)", {"r"}, {v[0]});
-      case ShapeKind::quadric:
-        if (!is_infinite(shape)) return formula_of(shape);
-        [[fallthrough]];
-      case ShapeKind::plane:
-        table.error("shape", "a surface without bounds can turn about its own axis, and not move otherwise",
-                    "a box or a disk of the size that is seen can");
-        return std::nullopt;
-      case ShapeKind::implicit: {
-        const Vec3 low{v[0], v[1], v[2]};
-        const Vec3 high{v[3], v[4], v[5]};
-        const auto bounds = c_.cache.bounds(*shape.formula);
-        const bool whole = bounds && !bounds->inside_beyond && bounds->low.x >= low.x &&
-                           bounds->low.y >= low.y && bounds->low.z >= low.z && bounds->high.x <= high.x &&
-                           bounds->high.y <= high.y && bounds->high.z <= high.z;
-        const Expression& f = shape.formula->expression();
-        return whole ? f : within_box(f, low, high, closed);
-      }
-      case ShapeKind::csg:
-        break;
-    }
-    return std::nullopt;
+    // Later than the last are lines of one moment.
+    return {proof.begins, 2.0 * prover_.last() - proof.begins, Continuity::continuous};
   }
 
   Compilation& c_;
@@ -362,7 +247,8 @@ class MotionCompiler {
 
 std::array<Expression, 3> formulas_of(const TableView& table, std::string_view key, const Vec3& now) {
   const Node* node = table.node_of(key);
-  if (node == nullptr || !uses_time(table.values().description, *node)) return constant_formulas(now);
+  const bool sound = node != nullptr && table.is_sound(key);  // else it has been reported
+  if (!sound || !uses_time(table.values().description, *node)) return constant_formulas(now);
   std::array<Expression, 3> formulas;
   for (std::size_t i = 0; i < 3; ++i) {
     const NodeArray* three = node->array();
@@ -400,6 +286,18 @@ MatterMotion::Time clock_of(const Compilation& c) {
   const bool shown = std::ranges::find(aovs, "properTime") != aovs.end();
   return {1.0 / c.scene.c,
           shown || lives_by_own_time(c.values.description, c.values.description.root, false)};
+}
+
+void check_motions_apart(const TableView& thing, const ExtendedVec3& celerity) {
+  if (celerity == ExtendedVec3{} || thing.node() == nullptr) return;
+  for (const char* key : {"position", "rotate", "scale"}) {
+    const Entry* written = find(*thing.node(), key);
+    if (written == nullptr || !uses_time(thing.values().description, written->node)) continue;
+    thing.error(
+        key, std::string("a thing moves by a velocity or by formulas of t in '") + key + "', not by both",
+        "define a [frame.NAME] with this velocity, and let it move in that; image_time instead of t puts it "
+        "somewhere else for each image");
+  }
 }
 
 bool is_in_motion(const TableView& thing) {

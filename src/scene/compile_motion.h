@@ -17,6 +17,9 @@ bool is_in_motion(const TableView& thing);
 /// reported.
 std::shared_ptr<const MatterMotion> path_of(Compilation& c, const TableView& light, int frame);
 
+/// Reports what a thing with this velocity of its own says of its motion besides.
+void check_motions_apart(const TableView& thing, const ExtendedVec3& celerity);
+
 /// A surface that moves, with its placement in the frame.
 struct MovingShape {
   Shape shape;

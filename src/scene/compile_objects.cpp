@@ -197,14 +197,17 @@ class ObjectCompiler {
     if (compiled) object.member_materials = compiled->member_materials;
     objects_.push_back(std::move(object));
     if (!compiled || c_.values.diagnostics.error_count() > errors) return;
-    if (const std::string wrong = problem(placement); !wrong.empty()) {
+    const bool apart = plan_.groups[group].apart;
+    if (has_motion(keys)) check_motions_apart(keys, c_.scene.frames[frame_of_group_[group]].motion.celerity);
+    if (c_.values.diagnostics.error_count() > errors) return;
+    if (const std::string wrong = apart ? "" : problem(placement); !wrong.empty()) {
       return keys.error(keys.has("scale") ? "scale" : "position", wrong);
     }
     std::unique_ptr<FrameBuilder>& builder = frames_[frame_of_group_[group]].builder;
     if (!builder) builder = std::make_unique<FrameBuilder>();
     if (!leave_room(keys, lattice)) return;
     const auto first = static_cast<int>(builder->surfaces.size());
-    if (plan_.groups[group].apart) {
+    if (apart) {
       return add_in_motion(index, keys, static_cast<int>(frame_of_group_[group]), *compiled, lattice,
                            *builder);
     }

@@ -160,6 +160,12 @@ KeyTable camera() {
   return table;
 }
 
+Key made_anew(Key key) {
+  key.clock = Clock::anew;
+  key.physically = "a flight whose thrust changes is a path: position as a formula of t";
+  return key;
+}
+
 KeyTable rocket() {
   return {
       "rocket",
@@ -169,10 +175,12 @@ KeyTable rocket() {
       "aboard weigh the same all the time. It is at rest at its own time 0, and decelerates before that. An "
       "object keeps its shape for those aboard (Born's rigid motion), so that its rear accelerates more than "
       "its front: `acceleration` is that of the point at `position`.",
-      {number("acceleration", Required{}, "length/time²", "What an accelerometer aboard shows.", above(0)),
-       numbers("along", 3, Required{}, "",
-               "The direction of the thrust, in the axes of the frame in which the flight begins; of any "
-               "length but zero.")},
+      {made_anew(number("acceleration", Required{}, "length/time²", "What an accelerometer aboard shows.",
+                        above(0))),
+       made_anew(
+           numbers("along", 3, Required{}, "",
+                   "The direction of the thrust, in the axes of the frame in which the flight begins; of any "
+                   "length but zero."))},
       ""};
 }
 

@@ -98,12 +98,18 @@ double turning_speed(const MotionLevel& level, const Sizes& rotate, std::vector<
   return speed;
 }
 
-/// Of the point with least ξ, at a time of the frame; 1 where there is none that can fly so.
-double flight_speed(const RocketFlight& rocket, const std::vector<HullBall>& hull, double time) {
+/// The least ξ of a hull.
+double least_distance(const RocketFlight& rocket, const std::vector<HullBall>& hull) {
   double least = infinity;
   for (const HullBall& ball : hull) {
     least = std::min(least, 1.0 / rocket.acceleration + glm::dot(ball.centre, rocket.along) - ball.radius);
   }
+  return least;
+}
+
+/// Of the point with least ξ, at a time of the frame; 1 where there is none that can fly so.
+double flight_speed(const RocketFlight& rocket, const std::vector<HullBall>& hull, double time) {
+  const double least = least_distance(rocket, hull);
   const double way = rocket.c * time;
   return least > 0.0 ? way / std::hypot(least, way) : 1.0;
 }
@@ -160,6 +166,26 @@ Speeds speeds(const std::vector<MotionLevel>& levels, std::vector<HullBall> hull
   return {body / c, std::min(centre, body) / c};
 }
 
+/// The corners of those cells of a box in which the surface may be at any time.
+void add_cells(const ImplicitFormula& f, const Vec3& low, const Vec3& high, int depth,
+               std::vector<HullBall>& hull) {
+  const Interval value = f.range(low, high, {-always, always, Continuity::continuous});
+  const bool is_empty = value.continuity == Continuity::undefined;
+  if (is_empty || (value.continuity < Continuity::partial && (value.lower > 0.0 || value.upper < 0.0)))
+    return;
+  if (depth == 0) {
+    const Vec3 middle = 0.5 * low + 0.5 * high;
+    hull.push_back({middle, 0.5 * glm::length(high - low)});
+    return;
+  }
+  const int axis = depth % 3;
+  const double middle = 0.5 * low[axis] + 0.5 * high[axis];
+  Vec3 below = high, above = low;
+  below[axis] = above[axis] = middle;
+  add_cells(f, low, below, depth - 1, hull);
+  add_cells(f, above, high, depth - 1, hull);
+}
+
 }  // namespace
 
 double stretch_of(const std::vector<MotionLevel>& levels, double from, double to) {
@@ -213,8 +239,11 @@ std::vector<HullBall> hull_of(const Shape& shape) {
     case ShapeKind::disk:
       add_ring(v[0], 0.0, 0.0);
       return hull;
-    case ShapeKind::implicit:
-      return box({v[0], v[1], v[2]}, {v[3], v[4], v[5]});
+    case ShapeKind::implicit: {
+      constexpr int deepest = 15;  // cells of a 32nd of the bounds
+      add_cells(*shape.formula, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, deepest, hull);
+      return hull;
+    }
     case ShapeKind::plane:
     case ShapeKind::quadric:
     case ShapeKind::csg:

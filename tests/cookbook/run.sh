@@ -26,11 +26,12 @@ size() { ffprobe -v error -select_streams v -count_packets -show_entries stream=
 expect() { [[ $2 == "$3" ]] || { echo "$1: expected $2, found $3" >&2 && exit 1; }; }
 expect out/speeds.png 360,264,1 "$(size out/speeds.png)"
 expect out/lamp.mp4 180,132,12 "$(size out/lamp.mp4)"
+expect out/wheels.mp4 180,102,12 "$(size out/wheels.mp4)"
 expect out/panorama.png 256,256,1 "$(size out/panorama.png)"
 cmp -s out/left.png out/right.png && { echo "both eyes see the same" >&2 && exit 1; }
-grep -q "2 images, 2 equal" recipe-4.log || { echo "the suite is not equal" >&2 && exit 1; }
+grep -q "2 images, 2 equal" recipe-5.log || { echo "the suite is not equal" >&2 && exit 1; }
 [[ -s out/report.html ]] || { echo "no report" >&2 && exit 1; }
-awk '/shifted/ { exit !($6 > 500) }' recipe-6.log || { echo "no pixel was shifted out of the visible" >&2 && exit 1; }
+awk '/shifted/ { exit !($6 > 500) }' recipe-7.log || { echo "no pixel was shifted out of the visible" >&2 && exit 1; }
 
 # A hole in the sequence is refused, and named; so is a frame there twice.
 rm out/lamp/lamp.0005.exr out/lamp/lamp.0007.exr
