@@ -53,6 +53,12 @@ position = [2, 0, 1]
 rotate = [0, "60*t", 20]
 material = { checker = { colors = [[0.9, 0.9, 0.2], [0.2, 0.2, 0.2]], size = 0.125 } }
 repeat = { count = [2, 1, 2], step = [1.7, 0, 1.5] }
+visible = "cos(5*t) + 0.4"
+[[object]]
+shape = "sphere"
+radius = 0.6
+position = [-0.6, 1.4, 1]
+visible = "sin(9*t)"
 [[object]]
 shape = "sphere"
 radius = 0.5

@@ -70,3 +70,22 @@ def number(value, variables):
 def vector(values, variables):
     """A list of scene numbers as a list of mpf."""
     return [number(value, variables) for value in values]
+
+
+class _Literals(ast.NodeTransformer):
+    """Literals as the doubles that they are, in some arithmetic."""
+
+    def visit_Constant(self, node):
+        return ast.copy_location(ast.Call(ast.Name("_real", ast.Load()), [ast.Constant(float(node.value))], []), node)
+
+
+def compiled(value, variables, kind):
+    """A number as written, as a function of t in the arithmetic `kind` (real, functions, constants)."""
+    if not isinstance(value, str):
+        number = kind.real(value)
+        return lambda t: number
+    tree = ast.parse(value.strip().replace("^", "**"), mode="eval")
+    _value(tree.body, CONSTANTS | {k: 1.0 for k in variables} | {"t": 0.5}, FUNCTIONS)  # refuses all else
+    code = compile(ast.fix_missing_locations(_Literals().visit(tree)), "formula", "eval")
+    names = kind.functions | kind.constants | variables | {"_real": kind.real, "__builtins__": {}}
+    return lambda t: eval(code, names | {"t": t})

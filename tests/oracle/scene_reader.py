@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from mpmath import mp, mpf
 
 from expression import evaluate, number, vector
+from motion import Motion, MovingBody, is_in_motion
 from minkowski import (Frame, ONE, ZERO, apply, dot, multiply, rotation_about_axes, scaled,
                        subtract, transpose, unit)
 
@@ -30,6 +31,7 @@ class SceneObject:
     rotation: list      # local axes to frame axes
     scale: list
     material: dict
+    body: MovingBody = None  # of what moves in its frame
     to_local: list = field(init=False)  # linear part of frame -> local
 
     def __post_init__(self):
@@ -39,12 +41,13 @@ class SceneObject:
 
 @dataclass
 class Light:
-    """A light at rest in `frame`; `position` or `direction` are in that frame's coordinates."""
+    """A light at rest in `frame`, unless it has a motion; `position` or `direction` are in that frame's coordinates."""
     kind: str
     table: dict
     frame: Frame
     position: list
     direction: list
+    motion: Motion = None
 
 
 @dataclass
@@ -166,8 +169,10 @@ class Scene:
             rotation = rotation_about_axes(self.vector(table.get("rotate", [0, 0, 0])))
             for copy, offset in enumerate(self.copies(table)):
                 place = [p + o for p, o in zip(position, offset)]
-                found.append(SceneObject(index, copy, table.get("name", ""), self._shape(table), frame,
-                                         place, rotation, scale, material))
+                shape = self._shape(table)
+                body = MovingBody(shape, Motion(table, self, offset)) if self._moves(table) else None
+                found.append(SceneObject(index, copy, table.get("name", ""), shape, frame,
+                                         place, rotation, scale, material, body))
         return found
 
     def copies(self, table):
@@ -195,7 +200,12 @@ class Scene:
         """A light in its rest frame."""
         frame, position = self.rest_frame(table)
         direction = unit(self.vector(table["direction"])) if table["type"] == "distant" else None
-        return Light(table["type"], table, frame, position, direction)
+        motion = Motion(table, self, [ZERO] * 3) if self._moves(table) else None
+        return Light(table["type"], table, frame, position, direction, motion)
+
+    def _moves(self, table):
+        """Whether a thing moves in its frame."""
+        return is_in_motion(table) and not any(key in table for key in MOTION_KEYS)
 
     def camera_table(self, name=None):
         """The table of the camera called `name`, or the only or first one."""

@@ -6,13 +6,23 @@ lights without colour, `doppler = false`. Anything else raises `Unsupported` and
 from mpmath import mp, mpf
 
 from expression import evaluate_precisely
-from minkowski import ONE, ZERO, along, dot, norm, scaled, subtract, unit
+from minkowski import ONE, ZERO, along, apply, boost, dot, norm, scaled, subtract, unit
+from motion import retarded
 
 COLOURED = ("temperature", "spectrum", "emission_color", "texture", "checker", "color_texture")
 
 
 class Unsupported(ValueError):
     """The scene asks for colour that this reference does not compute."""
+
+
+def gamma_between(frame, celerity, other, celerity_there):
+    """Lorentz factor of two things that move in two frames."""
+    def four(u):
+        return [mp.sqrt(1 + dot(u, u))] + list(u)
+    here = other.vector_from(frame, four(celerity))
+    there = four(celerity_there)
+    return here[0] * there[0] - dot(here[1:], there[1:])
 
 
 class Searchlight:
@@ -83,7 +93,8 @@ class Shader:
         colour = self._numbers(hit.obj.material.get("color", [1, 1, 1]))
         factor = ONE
         if light_delay:
-            factor = self.searchlight.factor(1 / abs(hit.ray[0]), hit.obj.frame.gamma_relative_to(camera))
+            gamma = gamma_between(hit.obj.frame, hit.celerity, camera, [ZERO] * 3)
+            factor = self.searchlight.factor(1 / abs(hit.ray[0]), gamma)
         rgb = [factor * (rho * diffuse + highlight + own) for rho in colour]
         return rgb, tuple(reached)
 
@@ -121,17 +132,34 @@ class Shader:
         """E = F I cos(theta) / r_O^2, from the retarded event of the light (section 4)."""
         frame = hit.obj.frame
         at_light = light.frame.event_from(frame, hit.event)
-        separation = subtract(at_light[1:], light.position)
-        r_light = norm(separation)
-        arriving = self.tracer.carry(frame, light.frame, [r_light] + separation)
+        emission = self._emission(light, at_light)
+        if emission is None:
+            return ZERO, [ONE, ONE, ZERO, ZERO]
+        place, celerity, own_time = emission
+        separation = subtract(at_light[1:], place)
+        travel = [norm(separation)] + separation
+        r_light = apply(boost(celerity), travel)[0]
+        in_frame = self.tracer.carry(frame, light.frame, travel)
+        arriving = apply(boost(hit.celerity), in_frame)
         r_object = arriving[0]
         cosine = -dot(hit.normal, arriving[1:]) / r_object
-        if cosine <= 0 or self.tracer.blocked(frame, hit.event, scaled(arriving, -ONE), ONE):
+        if cosine <= 0 or self.tracer.blocked(frame, hit.event, scaled(in_frame, -ONE), ONE):
             return ZERO, arriving
-        doppler = r_object / r_light
-        factor = self.searchlight.factor(doppler, frame.gamma_relative_to(light.frame))
-        own_time = (at_light[0] - r_light) / self.scene.c
-        return factor * self._intensity(light, own_time) * cosine / r_object ** 2, arriving
+        factor = self.searchlight.factor(r_object / r_light,
+                                         gamma_between(frame, hit.celerity, light.frame, celerity))
+        return factor * self._intensity(light, own_time / self.scene.c) * cosine / r_object ** 2, arriving
+
+    @staticmethod
+    def _emission(light, event):
+        """(place, celerity, own time) of a light when what it sends arrives at an event, in its frame; or None."""
+        if light.motion is None:
+            return light.position, [ZERO] * 3, event[0] - norm(subtract(event[1:], light.position))
+        left = retarded(light.motion, event)
+        if left is None:
+            return None
+        time, place = left
+        lamp = [ZERO] * 3
+        return place, light.motion.celerity(lamp, time), light.motion.own_time(lamp, time)
 
     def _intensity(self, light, own_time):
         """Radiant intensity at the light's own time (scene units)."""
@@ -143,10 +171,11 @@ class Shader:
     def _from_infinity(self, light, hit):
         """E = D^2 E_S cos(theta), the direction aberrated into the rest frame."""
         frame = hit.obj.frame
-        arriving = self.tracer.carry(frame, light.frame, [ONE] + light.direction)
+        in_frame = self.tracer.carry(frame, light.frame, [ONE] + light.direction)
+        arriving = apply(boost(hit.celerity), in_frame)
         doppler = arriving[0]
         cosine = -dot(hit.normal, arriving[1:]) / doppler
-        if cosine <= 0 or self.tracer.blocked(frame, hit.event, scaled(arriving, -ONE), None):
+        if cosine <= 0 or self.tracer.blocked(frame, hit.event, scaled(in_frame, -ONE), None):
             return ZERO, arriving
-        factor = self.searchlight.plane_wave_factor(doppler, frame.gamma_relative_to(light.frame))
+        factor = self.searchlight.plane_wave_factor(doppler, gamma_between(frame, hit.celerity, light.frame, [ZERO] * 3))
         return factor * self.scene.number(light.table["irradiance"]) * cosine, arriving

@@ -3,7 +3,7 @@ from dataclasses import dataclass
 
 from mpmath import mp, mpf
 
-from minkowski import ONE, ZERO, add, along, apply, dot, scaled, subtract, unit
+from minkowski import ONE, ZERO, add, along, apply, boost, dot, scaled, subtract, unit
 from shapes import intersect
 
 # Roots this near the start of a shadow ray are the lit surface itself. The start is known to 1e-40.
@@ -12,13 +12,15 @@ SELF = mpf(10) ** -25
 
 @dataclass
 class Hit:
-    """A hit event in the rest frame of its object."""
+    """A hit event in the frame of its object; ray and normal in that of its matter."""
     obj: object
     s: mpf
-    event: list      # (time; space), rest frame
-    ray: list        # traced four-vector n, rest frame
-    normal: list     # unit, rest frame, facing the ray
+    event: list      # (time; space), the object's frame
+    ray: list        # traced four-vector n, in the frame of the matter, its axes carried by the pure boost
+    normal: list     # unit, there, facing the ray
     face: int
+    celerity: list   # of the matter in the object's frame
+    own_time: mpf    # of the matter, times c
 
     def signature(self):
         """What must not change for neighbouring rays to see the same smooth piece of surface."""
@@ -82,13 +84,18 @@ class Tracer:
             self._matrices[key] = [list(row) for row in zip(*columns)]
         return apply(self._matrices[key], vector)
 
-    def all_roots(self, frame, event, ray):
-        """(s, object, gradient, face, event, ray) of every crossing of a line with every object."""
+    def all_roots(self, frame, event, ray, end=None):
+        """(s, object, gradient, face, event, ray) of every crossing of a line with every object; of those in motion
+        only between 0 and `end`, without a gradient."""
         world = frame.event_to_world(event)
         for other, objects in self.by_frame.values():
             start = other.event_from_world(world)
             direction = self.carry(other, frame, ray)
             for obj in objects:
+                if obj.body:
+                    for s, face in obj.body.roots(start, direction, end):
+                        yield s, obj, None, face, start, direction
+                    continue
                 local_start = apply(obj.to_local, subtract(start[1:], obj.position))
                 local_direction = apply(obj.to_local, direction[1:])
                 for s, gradient, face in intersect(obj.shape, local_start, local_direction):
@@ -101,14 +108,26 @@ class Tracer:
         if best is None:
             return None
         s, obj, gradient, face, start, direction = best[2]
+        if obj.body:
+            return self._hit_in_motion(s, obj, face, start, direction)
         normal = unit(apply([list(row) for row in zip(*obj.to_local)], gradient))
         if dot(normal, direction[1:]) > 0:
             normal = scaled(normal, -ONE)
-        return Hit(obj, s, along(start, direction, s), direction, normal, face)
+        event = along(start, direction, s)
+        return Hit(obj, s, event, direction, normal, face, [ZERO] * 3, event[0])
+
+    def _hit_in_motion(self, s, obj, face, start, direction):
+        """The hit of matter that moves in its frame."""
+        event = along(start, direction, s)
+        point, celerity, normal = obj.body.matter_at(event)
+        ray = apply(boost(celerity), direction)
+        if dot(normal, ray[1:]) > 0:
+            normal = scaled(normal, -ONE)
+        return Hit(obj, s, event, ray, normal, face, celerity, obj.body.motion.own_time(point, event[0]))
 
     def blocked(self, frame, event, ray, end):
         """Whether anything lies on event + s ray for 0 < s < end (None: no end)."""
-        for s, *_ in self.all_roots(frame, event, ray):
+        for s, *_ in self.all_roots(frame, event, ray, end):
             if s > SELF and (end is None or s < end - SELF):
                 return True
         return False
@@ -124,7 +143,7 @@ class Tracer:
             "Z": [hit.s],
             "doppler": [1 / abs(hit.ray[0]) if light_delay else ONE],
             "emissionTime": [world[0] / self.scene.c],
-            "properTime": [hit.event[0] / self.scene.c],
+            "properTime": [hit.own_time / self.scene.c],
             "P": hit.event[1:],
             "N": hit.normal,
         }
