@@ -170,10 +170,9 @@ void SurfaceSet::points(const RaySheet& sheet, int surface, int first, int last,
     const Vec3 origin{sheet.origin[0][from], sheet.origin[1][from], sheet.origin[2][from]};
     const Vec3 direction{sheet.direction[0][i], sheet.direction[1][i], sheet.direction[2][i]};
     const RayClock clock{sheet.start_time[from], sheet.time_rate[i]};
-    Hit hit{hits.lambda[i], surface};
-    // Of what comes and goes it need not be the first crossing.
-    if (placed.shape.presence)
-      hit = {hit.lambda, surface, hits.part_of(i), hits.is_unresolved(i), hits.along[i]};
+    const Hit hit = turns
+                        ? Hit{hits.lambda[i], surface, hits.part_of(i), hits.is_unresolved(i), hits.along[i]}
+                        : Hit{hits.lambda[i], surface};
     put(resolve(hit, origin, direction, clock), i, points);
   }
 }
