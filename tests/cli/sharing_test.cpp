@@ -20,7 +20,8 @@ using namespace std::chrono_literals;
 
 constexpr const char* moving =
     "[animation]\nfps = 10\nframes = [1, 12]\n"
-    "[[object]]\nshape = \"box\"\nsize = [1, 1, 1]\nposition = [0, 1, \"3 + image_time\"]\nvelocity = [0.5, 0, 0]\n";
+    "[[object]]\nshape = \"box\"\nsize = [1, 1, 1]\nposition = [0, 1, \"3 + image_time\"]\nvelocity = [0.5, "
+    "0, 0]\n";
 
 class Sharing : public Again {
  protected:
