@@ -290,19 +290,35 @@ std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::
   };
   const SpeedProof proof = prove_speed(levels, hull, c, last_, reach, is_enough);
   if (std::isinf(proof.begins) || proof.begins <= last_ - reach || is_seen_later(proof.begins)) return proof;
+  refuse(table, rocket, hull, proof);
+  return std::nullopt;
+}
+
+void SpeedProver::refuse(const TableView& table, const std::optional<RocketFlight>& rocket,
+                         const std::vector<HullBall>& hull, const SpeedProof& proof) const {
+  if (rocket && !(least_distance(*rocket, hull) > 0.0)) {
+    const double horizon = 1.0 / rocket->acceleration;
+    return table.error("rocket",
+                       "it reaches " + number_text(horizon - least_distance(*rocket, hull)) +
+                           " behind 'position', and nothing can fly along from c²/acceleration = " +
+                           number_text(horizon) + " behind that on",
+                       "a smaller acceleration, or a body that reaches less far behind");
+  }
   const char* key = "position";
   for (const char* written : {"scale", "rotate", "position"}) {
-    if (table.node_of(written) != nullptr && uses_time(c_.values.description, *table.node_of(written)))
-      key = written;
+    const Node* node = table.node_of(written);
+    if (node != nullptr && uses_time(c_.values.description, *node)) key = written;
   }
-  table.error(
-      key,
-      "its matter cannot be shown to be slower than light, c = " + number_text(c) +
-          ", at t = " + number_text(proof.begins) + ": the bound on its speed there is " +
-          number_text(proof.speed_before * c),
-      "the velocity is derived from the formulas of t; write velocity = [0, 0, 0] for a thing that is put "
-      "somewhere else for each image");
-  return std::nullopt;
+  const double c = c_.scene.c;
+  const std::string bound = std::isfinite(proof.speed_before)
+                                ? "the bound on its speed there is " + number_text(proof.speed_before * c)
+                                : std::string("a formula may jump there, or has a pole (mod and floor jump)");
+  table.error(key,
+              "its matter cannot be shown to be slower than light, c = " + number_text(c) +
+                  ", at t = " + number_text(proof.begins) + ": " + bound,
+              "the velocity is derived from the formulas of t: max(t, 0) begins a motion at t = 0; "
+              "image_time instead "
+              "of t puts a thing somewhere else for each image");
 }
 
 bool uses_time(const Description& description, const Node& node) {

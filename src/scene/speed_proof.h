@@ -46,6 +46,9 @@ class SpeedProver {
                                   const std::vector<HullBall>& hull, const Vec3& offset) const;
 
  private:
+  void refuse(const TableView& table, const std::optional<RocketFlight>& rocket,
+              const std::vector<HullBall>& hull, const SpeedProof& proof) const;
+
   Compilation& c_;
   Vec3 camera_{0.0};  ///< in the frame
   double last_ = 0.0;
