@@ -110,18 +110,6 @@ inline bool is_zero(const Bounds& a) {
   return a.minus_lower == 0.0 && a.upper == 0.0;
 }
 
-inline bool holds_zero(const Bounds& a) {
-  return a.minus_lower >= 0.0 && a.upper >= 0.0;
-}
-
-/// Whether 0 times what is beyond all doubles has a value, which in doubles is no number: nowhere if the
-/// product is that for certain, in parts if it may be.
-inline Continuity of_infinite_product(const Bounds& a, const Bounds& b, Continuity continuity) {
-  if ((is_zero(a) && overflows(b)) || (is_zero(b) && overflows(a))) return Continuity::undefined;
-  const bool may = (holds_zero(a) && may_overflow(b)) || (holds_zero(b) && may_overflow(a));
-  return may ? std::max(continuity, Continuity::partial) : continuity;
-}
-
 inline Bounds product(const Bounds& a, const Bounds& b, Continuity continuity) {
   // Ends that are not -infinity add up to infinity when one of them is: else there is no 0 times infinity.
   if ((a.minus_lower + a.upper) + (b.minus_lower + b.upper) < infinity) {
@@ -131,8 +119,6 @@ inline Bounds product(const Bounds& a, const Bounds& b, Continuity continuity) {
                      std::max(-a.minus_lower * b.upper, a.upper * -b.minus_lower)),
             continuity};
   }
-  continuity = of_infinite_product(a, b, continuity);
-  if (continuity == Continuity::undefined) return nowhere();
   const double upper = std::max(
       std::max(extended_product(a.minus_lower, b.minus_lower), extended_product(a.upper, b.upper)),
       std::max(extended_product(-a.minus_lower, b.upper), extended_product(a.upper, -b.minus_lower)));
@@ -147,6 +133,11 @@ inline Bounds product(const Bounds& a, const Bounds& b, Continuity continuity) {
   if (overflows(a) && overflows(b)) return nowhere();
   return everything(may_overflow(a) && may_overflow(b) ? std::max(worse(a, b), Continuity::partial)
                                                        : worse(a, b));
+}
+
+/// 0 times what is certainly beyond all doubles: in doubles that is no number.
+inline bool nothing_of_infinity(const Bounds& a, const Bounds& b) {
+  return (is_zero(a) && overflows(b)) || (is_zero(b) && overflows(a));
 }
 
 inline Bounds operator+(const Bounds& a, const Bounds& b) {
@@ -166,7 +157,8 @@ inline Bounds operator-(const Bounds& a, const Bounds& b) {
 
 inline Bounds operator*(const Bounds& a, const Bounds& b) {
   const Continuity continuity = worse(a, b);
-  return continuity == Continuity::undefined ? nowhere() : product(a, b, continuity);
+  if (continuity == Continuity::undefined || nothing_of_infinity(a, b)) return nowhere();
+  return product(a, b, continuity);
 }
 
 inline Bounds square(const Bounds& a) {
