@@ -72,14 +72,15 @@ void TracingThreads::go_on_with(ImageTracing& image) {
 
 void TracingThreads::append(std::unique_ptr<Job> job, bool first) {
   const std::lock_guard lock(guard_);
-  jobs_.insert(first ? jobs_.begin() : jobs_.end(), std::move(job));
-  // More threads than CPUs share some in any case.
+  // Before the job is there: where memory fails, nobody would be told of it. More threads than CPUs share
+  // some in any case.
   for (std::size_t i = 0; i < threads_.size() && threads_.size() > 1 && threads_.size() <= spread_.cpus();
        ++i) {
     if (states_[i] == State::waits && spread_.place(threads_[i].native_handle(), i)) {
       states_[i] = State::is_placed;
     }
   }
+  jobs_.insert(first ? jobs_.begin() : jobs_.end(), std::move(job));
   has_work_.notify_all();
 }
 
