@@ -40,7 +40,7 @@ irradiance = 3
 shape = "torus"
 major = 1
 minor = 0.4
-rotate = ["40*t", 20, 0]
+rotate = ["40*image_time", 20, 0]
 velocity = [0.6, 0, 0]
 SCENE
 
