@@ -31,13 +31,6 @@ Expression within_box(const Expression& f, const Vec3& low, const Vec3& high, bo
   return composer.expression(composer.insert(outer, at), f.text());
 }
 
-Expression of_text(const std::string& text, const std::vector<std::string>& names,
-                   const std::vector<double>& values) {
-  std::vector<std::string> variables{"x", "y", "z", "t"};
-  variables.insert(variables.end(), names.begin(), names.end());
-  return std::get<Expression>(Expression::parse(text, variables)).bind(ImplicitFormula::variables, values);
-}
-
 }  // namespace
 
 std::optional<Expression> body_formula(Compilation& c, const TableView& table, const Shape& shape,
@@ -45,19 +38,19 @@ std::optional<Expression> body_formula(Compilation& c, const TableView& table, c
   const auto& v = shape.values;
   switch (shape.kind) {
     case ShapeKind::sphere:
-      return of_text("x^2 + y^2 + z^2 - r^2", {"r"}, {v[0]});
+      return formula_of_text("x^2 + y^2 + z^2 - r^2", {"r"}, {v[0]});
     case ShapeKind::box:
-      return of_text("max(abs(x) - a, abs(y) - b, abs(z) - c)", {"a", "b", "c"},
-                     {0.5 * v[0], 0.5 * v[1], 0.5 * v[2]});
+      return formula_of_text("max(abs(x) - a, abs(y) - b, abs(z) - c)", {"a", "b", "c"},
+                             {0.5 * v[0], 0.5 * v[1], 0.5 * v[2]});
     case ShapeKind::cylinder:
-      return of_text("max(x^2 + z^2 - r^2, abs(y) - h)", {"r", "h"}, {v[0], 0.5 * v[1]});
+      return formula_of_text("max(x^2 + z^2 - r^2, abs(y) - h)", {"r", "h"}, {v[0], 0.5 * v[1]});
     case ShapeKind::cone:
-      return of_text("max(x^2 + z^2 - (m + k*y)^2, abs(y) - h)", {"m", "k", "h"},
-                     {0.5 * (v[0] + v[1]), (v[1] - v[0]) / v[2], 0.5 * v[2]});
+      return formula_of_text("max(x^2 + z^2 - (m + k*y)^2, abs(y) - h)", {"m", "k", "h"},
+                             {0.5 * (v[0] + v[1]), (v[1] - v[0]) / v[2], 0.5 * v[2]});
     case ShapeKind::torus:
-      return of_text("(sqrt(x^2 + z^2) - major)^2 + y^2 - minor^2", {"major", "minor"}, {v[0], v[1]});
+      return formula_of_text("(sqrt(x^2 + z^2) - major)^2 + y^2 - minor^2", {"major", "minor"}, {v[0], v[1]});
     case ShapeKind::disk:
-      return of_text("y + 0*sqrt(r^2 - x^2 - z^2)", {"r"}, {v[0]});
+      return formula_of_text("y + 0*sqrt(r^2 - x^2 - z^2)", {"r"}, {v[0]});
     case ShapeKind::quadric:
       if (!is_infinite(shape)) return formula_of(shape);
       [[fallthrough]];

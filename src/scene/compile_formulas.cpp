@@ -10,6 +10,7 @@
 #include "backlight/surface/matter_motion.h"
 #include "motion_levels.h"
 #include "own_time.h"
+#include "speed_proof.h"
 
 namespace backlight {
 namespace {
@@ -51,13 +52,6 @@ GraphNode smooth_minimum(Composer& composer, GraphNode a, GraphNode b, double k)
       composer.apply(Operation::multiply, composer.constant(0.25 * k),
                      composer.apply(Operation::square, composer.apply(Operation::subtract, one, part)));
   return composer.apply(Operation::subtract, composer.apply(Operation::min, a, b), dent);
-}
-
-Expression parsed(const std::string& text, const std::vector<std::string>& names,
-                  const std::vector<double>& values) {
-  std::vector<std::string> variables{"x", "y", "z", "t"};
-  variables.insert(variables.end(), names.begin(), names.end());
-  return std::get<Expression>(Expression::parse(text, variables)).bind(ImplicitFormula::variables, values);
 }
 
 UnresolvedRoots read_unresolved(const TableView& table) {
@@ -106,7 +100,7 @@ bool makes_sense(const TableView& table, std::string_view key, const ImplicitFor
 
 // Of x, y, z and the matter's own t.
 Expression bound(Compilation& c, const Node& written) {
-  if (const auto* number = std::get_if<double>(&written.value)) return parsed(number_text(*number), {}, {});
+  if (const auto* number = std::get_if<double>(&written.value)) return constant_formula(*number);
   return in_own_time(c.values, std::get<Expression>(written.value));
 }
 
@@ -114,7 +108,6 @@ Expression bound(Compilation& c, const Node& written) {
 // box.
 bool is_slower_than_light(const MatterMotion::Map& velocity, double c, const ImplicitFormula& f,
                           const Vec3& low, const Vec3& high, int depth) {
-  constexpr double always = 1e15;
   const Interval time{-always, always, Continuity::continuous};
   const Interval value = f.range(low, high, time);
   if (value.lower > 0.0 || value.upper < 0.0) return true;
@@ -244,28 +237,37 @@ std::string corner_distance(const std::string& first, const std::string& second,
 
 }  // namespace
 
+Expression formula_of_text(const std::string& text, const std::vector<std::string>& names,
+                           const std::vector<double>& values) {
+  std::vector<std::string> variables{"x", "y", "z", "t"};
+  variables.insert(variables.end(), names.begin(), names.end());
+  return std::get<Expression>(Expression::parse(text, variables)).bind(ImplicitFormula::variables, values);
+}
+
 std::optional<Expression> formula_of(const Shape& shape) {
   const auto& v = shape.values;
   switch (shape.kind) {
     case ShapeKind::sphere:
-      return parsed("sqrt(x^2 + y^2 + z^2) - radius", {"radius"}, {v[0]});
+      return formula_of_text("sqrt(x^2 + y^2 + z^2) - radius", {"radius"}, {v[0]});
     case ShapeKind::torus:
-      return parsed("sqrt((sqrt(x^2 + z^2) - major)^2 + y^2) - minor", {"major", "minor"}, {v[0], v[1]});
+      return formula_of_text("sqrt((sqrt(x^2 + z^2) - major)^2 + y^2) - minor", {"major", "minor"},
+                             {v[0], v[1]});
     case ShapeKind::plane:
-      return parsed("y", {}, {});
+      return formula_of_text("y", {}, {});
     case ShapeKind::box:
-      return parsed(
+      return formula_of_text(
           corner_distance("max(abs(x) - a, abs(y) - b, abs(z) - c)",
                           "max(min(abs(x) - a, abs(y) - b), min(max(abs(x) - a, abs(y) - b), abs(z) - c))",
                           "min(abs(x) - a, abs(y) - b, abs(z) - c)"),
           {"a", "b", "c"}, {0.5 * v[0], 0.5 * v[1], 0.5 * v[2]});
     case ShapeKind::cylinder:
-      return parsed(corner_distance("max(sqrt(x^2 + z^2) - r, abs(y) - h)",
-                                    "min(sqrt(x^2 + z^2) - r, abs(y) - h)", "-1"),
-                    {"r", "h"}, {v[0], 0.5 * v[1]});
+      return formula_of_text(corner_distance("max(sqrt(x^2 + z^2) - r, abs(y) - h)",
+                                             "min(sqrt(x^2 + z^2) - r, abs(y) - h)", "-1"),
+                             {"r", "h"}, {v[0], 0.5 * v[1]});
     case ShapeKind::quadric:
-      return parsed("c0*x^2 + c1*y^2 + c2*z^2 + c3*x*y + c4*x*z + c5*y*z + c6*x + c7*y + c8*z + c9",
-                    {"c0", "c1", "c2", "c3", "c4", "c5", "c6", "c7", "c8", "c9"}, {v.begin(), v.end()});
+      return formula_of_text("c0*x^2 + c1*y^2 + c2*z^2 + c3*x*y + c4*x*z + c5*y*z + c6*x + c7*y + c8*z + c9",
+                             {"c0", "c1", "c2", "c3", "c4", "c5", "c6", "c7", "c8", "c9"},
+                             {v.begin(), v.end()});
     case ShapeKind::cone:
     case ShapeKind::disk:
     case ShapeKind::csg:

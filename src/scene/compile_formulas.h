@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "backlight/surface/implicit_surface.h"
@@ -21,6 +22,10 @@ struct BlendPart {
   int member = 0;
   std::optional<FormulaBounds> bounds;  ///< as written
 };
+
+/// The text as a formula of x, y, z and t, with numbers in the places of further names.
+Expression formula_of_text(const std::string& text, const std::vector<std::string>& names,
+                           const std::vector<double>& values);
 
 /// The formula of a closed form that a blend may take: its signed distance (a quadric's own formula); nothing
 /// for the others.

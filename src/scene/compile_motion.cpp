@@ -66,11 +66,11 @@ MatterMotion::Ball ball_of(const MatterMotion::Body& body, const SpeedProof& pro
 
 using Reach = std::array<Interval, 3>;
 
-/// A box about the shape in its own coordinates.
-Reach box_of(const Shape& shape) {
+/// A box about a hull.
+Reach box_of(const std::vector<HullBall>& hull) {
   Vec3 low{std::numeric_limits<double>::infinity()};
   Vec3 high = -low;
-  for (const HullBall& ball : hull_of(shape)) {
+  for (const HullBall& ball : hull) {
     low = glm::min(low, ball.centre - ball.radius);
     high = glm::max(high, ball.centre + ball.radius);
   }
@@ -188,7 +188,8 @@ class MotionCompiler {
     SurfaceSet one;
     one.add(shape, Placement{});
     const TableView& in_motion = place_uses_time(c_.values.description, *table.node()) ? table : object_;
-    const auto proof = prover_.prove(in_motion, levels, hull_of(shape), offset_);
+    const std::vector<HullBall> hull = hull_of(shape);
+    const auto proof = prover_.prove(in_motion, levels, hull, offset_);
     if (!proof) return std::nullopt;
     const MatterMotion::Body body = body_of(levels);
     const Interval times = times_of(*proof);
@@ -196,7 +197,7 @@ class MotionCompiler {
     const MatterMotion::Ball ball = ball_of(body, *proof, radius * (1.0 + 1e-12), c_.scene.c);
     Vec3 low{0.0}, high{0.0};
     bool rests = std::isinf(ball.begins);
-    const Reach box = box_of(shape);
+    const Reach box = box_of(hull);
     for (std::size_t i = 0; i < 3; ++i) {
       const int k = static_cast<int>(i);
       const Interval path = over_times(ball.path[i], times.lower, times.upper).value;
@@ -284,8 +285,10 @@ void take_rocket(const TableView& table, double c, MotionLevel& level) {
 MatterMotion::Time clock_of(const Compilation& c) {
   const auto& aovs = c.scene.film.aovs;
   const bool shown = std::ranges::find(aovs, "properTime") != aovs.end();
-  return {1.0 / c.scene.c,
-          shown || lives_by_own_time(c.values.description, c.values.description.root, false)};
+  const Description& description = c.values.description;
+  std::optional<bool>& lives = c.parts.lives_by_own_time;
+  if (!lives) lives = lives_by_own_time(description, description.root, false);
+  return {1.0 / c.scene.c, shown || *lives};
 }
 
 void check_motions_apart(const TableView& thing, const ExtendedVec3& celerity) {

@@ -11,11 +11,6 @@ namespace {
 
 using GraphNode = Composer::Node;
 
-Expression constant_expression(double value) {
-  Composer composer(ImplicitFormula::variables);
-  return composer.expression(composer.constant(value), "");
-}
-
 MotionCoordinates variables_of(Composer& composer) {
   return {composer.variable(0), composer.variable(1), composer.variable(2), composer.variable(3)};
 }
@@ -100,7 +95,7 @@ bool MotionLevel::moves() const {
 }
 
 std::array<Expression, 3> constant_formulas(const Vec3& values) {
-  return {constant_expression(values.x), constant_expression(values.y), constant_expression(values.z)};
+  return {constant_formula(values.x), constant_formula(values.y), constant_formula(values.z)};
 }
 
 std::optional<Vec3> constants_of(const std::array<Expression, 3>& formulas) {
@@ -114,7 +109,7 @@ std::optional<Vec3> constants_of(const std::array<Expression, 3>& formulas) {
 }
 
 Expression formula_of_time(const ImageValues& values, const Node& written) {
-  if (const auto* number = std::get_if<double>(&written.value)) return constant_expression(*number + 0.0);
+  if (const auto* number = std::get_if<double>(&written.value)) return constant_formula(*number + 0.0);
   const Expression formula = in_own_time(values, std::get<Expression>(written.value));
   Composer composer(ImplicitFormula::variables);
   const std::array<GraphNode, 1> time{composer.variable(ImplicitFormula::t)};
