@@ -1,5 +1,7 @@
 #include "matter_scenes.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -101,6 +103,16 @@ bool same_bits(const Rendering& a, const Rendering& b) {
     }
   }
   return true;
+}
+
+void expect_same(const Match& m, const std::string& what, int least_seen) {
+  EXPECT_GT(m.seen, least_seen) << what;
+  EXPECT_EQ(m.other_id, 0) << what;
+  EXPECT_LT(m.worst_seen(), 1e-6) << what << m.distance.where << ' ' << m.doppler.where << ' '
+                                  << m.normal.where;
+  EXPECT_LT(m.own_time.error, 1e-6) << what << m.own_time.where;
+  EXPECT_LT(m.position.error, 1e-6) << what;
+  EXPECT_LT(m.colour.error, 1e-5) << what << m.colour.where;
 }
 
 }  // namespace backlight::test

@@ -46,6 +46,9 @@ enum class Pixels {
 
 Match match(const Rendering& a, const Rendering& b, Pixels pixels = Pixels::inside);
 
+/// That two pictures show the same matter, in the same coordinates, with the same colours.
+void expect_same(const Match& m, const std::string& what, int least_seen = 700);
+
 /// Whether every value of every channel has the same bits.
 bool same_bits(const Rendering& a, const Rendering& b);
 

@@ -19,16 +19,6 @@ std::string stage() {
          "[[object]]\nshape = \"box\"\nsize = [20, 0.5, 20]\nposition = [0, -1.5, 4]\n";
 }
 
-void expect_same(const Match& m, const std::string& what, int least_seen = 700) {
-  EXPECT_GT(m.seen, least_seen) << what;
-  EXPECT_EQ(m.other_id, 0) << what;
-  EXPECT_LT(m.worst_seen(), 1e-6) << what << m.distance.where << ' ' << m.doppler.where << ' '
-                                  << m.normal.where;
-  EXPECT_LT(m.own_time.error, 1e-6) << what << m.own_time.where;
-  EXPECT_LT(m.position.error, 1e-6) << what;
-  EXPECT_LT(m.colour.error, 1e-5) << what << m.colour.where;
-}
-
 const char* const ball = "shape = \"sphere\"\nradius = 0.8\nmaterial = { color = [0.8, 0.2, 0.2] }\n";
 const char* const block = "shape = \"box\"\nsize = [2.5, 0.7, 1.2]\nmaterial = { color = [0.2, 0.6, 0.3] }\n";
 const char* const swing =
