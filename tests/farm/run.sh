@@ -174,12 +174,12 @@ until_true 60 "the array job" queue_is_empty "$array,$gather"
 expect_same "$work/array"
 
 begin "requeued in the middle of an image"
-slow=(-f 7 -s 256 -r 240x135)
+slow=(-f 7 -s 2048 -r 240x135)   # seconds of work, so that its middle can be met
 "$BACKLIGHT" render "$scene" "${slow[@]}" -o "$work/plain/slow.exr" -q
 read -r array gather < <("$submit" "$scene" "${slow[@]}" -o "$work/requeue/slow.exr")
 job=$(job_folder "$work/requeue")
 until_true 30 "the image to be begun" is_file "$work/requeue/*.claim"
-sleep 0.5
+sleep 0.2
 scontrol requeue "$array"
 until_true 20 "the partial image" is_file "$work/requeue/*.partial.exr"
 [[ -z $(find "$work/requeue" -maxdepth 1 -name 'slow*.exr' ! -name '*.partial.exr') ]] || fail "the image was whole before the requeue"
