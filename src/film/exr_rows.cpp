@@ -99,17 +99,19 @@ std::size_t words_of_row(const ImageLayout& rows) {
 
 /// All lower bytes, then all upper ones, each byte but the first as its difference from the one before, plus
 /// 128: what EXR's ZIP hands to zlib.
-void split_into_differences(const Words& words, std::vector<std::uint8_t>& bytes) {
+void split_into_differences(std::span<const std::uint16_t> words, std::vector<std::uint8_t>& bytes) {
+  bytes.resize(2 * words.size());
+  // Plain pointers: a byte that is written might be a part of a vector's own, which would be read anew for each.
   const std::size_t count = words.size();
-  bytes.resize(2 * count);
+  const std::uint16_t* const word = words.data();
   std::uint8_t* const lower = bytes.data();
   std::uint8_t* const upper = lower + count;
   for (std::size_t i = 1; i < count; ++i) {
-    lower[i] = static_cast<std::uint8_t>(words[i] - words[i - 1] + 128);
-    upper[i] = static_cast<std::uint8_t>((words[i] >> 8U) - (words[i - 1] >> 8U) + 128);
+    lower[i] = static_cast<std::uint8_t>(word[i] - word[i - 1] + 128);
+    upper[i] = static_cast<std::uint8_t>((word[i] >> 8U) - (word[i - 1] >> 8U) + 128);
   }
-  lower[0] = static_cast<std::uint8_t>(words[0]);
-  upper[0] = static_cast<std::uint8_t>((words[0] >> 8U) - words[count - 1] + 128);
+  lower[0] = static_cast<std::uint8_t>(word[0]);
+  upper[0] = static_cast<std::uint8_t>((word[0] >> 8U) - word[count - 1] + 128);
 }
 
 /// Makes one chunk after the other, in the same memory.

@@ -29,11 +29,12 @@ bool fits_half(float value) {
 }
 
 // By the bits, in whose order the sizes of numbers are, and NaNs beyond all of them: a loop that compilers
-// put into vectors.
+// put into vectors, in which no step waits for the one before.
 bool all_within(std::span<const float> values, float greatest) {
-  std::int32_t most = 0;
-  for (const float value : values) most = std::max(most, std::bit_cast<std::int32_t>(value) & 0x7fffffff);
-  return most <= std::bit_cast<std::int32_t>(greatest);
+  const auto most = std::bit_cast<std::int32_t>(greatest);
+  std::int32_t beyond = 0;
+  for (const float value : values) beyond |= (std::bit_cast<std::int32_t>(value) & 0x7fffffff) > most ? -1 : 0;
+  return beyond == 0;
 }
 
 std::string channel_name(std::string_view name, const std::vector<std::string>& views, std::size_t view) {
