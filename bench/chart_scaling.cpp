@@ -1,6 +1,6 @@
 // Time of a whole frame by the number of objects, of pixels and of threads: fields of spheres, one shadowing
-// lamp, RGB.
-//   chart_scaling objects|pixels|threads [--quick]      CSV on stdout; CPU seconds, but for threads
+// lamp, RGB; and the pictures that people make, with all effects that they have.
+//   chart_scaling objects|pixels|scenes|threads [--quick]      CSV on stdout; CPU seconds, but for threads
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -27,6 +27,7 @@ Scene field(int spheres, FieldMotion motion, int frames, int width, int height) 
 double seconds_of(const Scene& scene, RayPath path) {
   RenderSettings settings;
   settings.path = path;
+  settings.wavelengths = needs_within_tolerance(scene).wavelengths;
   const std::atomic<bool> stop{false};
   const double start = cpu_seconds();
   (void)render_image(scene, settings, stop, nullptr);
@@ -79,15 +80,31 @@ void pixels(bool quick) {
   }
 }
 
+void scenes(bool quick, bool smoke) {
+  std::puts("scene,surfaces,frames,colours,width,height,pixels,cpu_seconds");
+  for (const char* name : {"fig2a-tram-rest", "fig2b-tram-terrell", "fig7-tram-shadow", "fig1-tram-interior",
+                           "default", "street-lamp-flicker"}) {
+    for (const int width : {180, 360, 720, 1440}) {
+      if (quick && width > (smoke ? 180 : 720)) break;
+      ImageRequest image;
+      image.resolution = {width, width * 526 / 720};
+      const Scene scene = load(std::string("scenes/") + name + ".toml", {"film.samples=1"}, image);
+      const Needs needs = needs_within_tolerance(scene);
+      std::printf("%s,%zu,%zu,%s,%d,%d,%d,%.4g\n", name, needs.surfaces, needs.frames,
+                  needs.spectral ? "spectra" : "RGB", width, width * 526 / 720, width * (width * 526 / 720),
+                  typical_seconds(scene, RayPath::sheets));
+      std::fflush(stdout);
+    }
+  }
+}
+
 double wall_seconds(const Scene& scene, int threads) {
   const auto start = std::chrono::steady_clock::now();
   render(scene, threads);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void threads(bool quick) {
-  const int width = quick ? 720 : 1440;
-  const Scene scene = field(200, FieldMotion::distinct, 1, width, width * 526 / 720);
+void threads_of(const char* name, const Scene& scene) {
   const int most = int(std::thread::hardware_concurrency());
   std::vector<std::vector<double>> seconds(std::size_t(most) + 1);
   for (int round = 0; round < 8; ++round) {
@@ -96,11 +113,19 @@ void threads(bool quick) {
       if (round > 0) seconds[std::size_t(count)].push_back(taken);
     }
   }
-  std::puts("threads,wall_seconds,speed_up");
   for (int count = 1; count <= most; ++count) {
     const double typical = median(seconds[std::size_t(count)]);
-    std::printf("%d,%.4g,%.4g\n", count, typical, median(seconds[1]) / typical);
+    std::printf("%s,%d,%.4g,%.4g\n", name, count, typical, median(seconds[1]) / typical);
   }
+}
+
+void threads(bool quick) {
+  const int width = quick ? 720 : 1440;
+  ImageRequest image;
+  image.resolution = {width, width * 526 / 720};
+  std::puts("scene,threads,wall_seconds,speed_up");
+  threads_of("200 moving spheres", field(200, FieldMotion::distinct, 1, width, width * 526 / 720));
+  threads_of("fig7-tram-shadow", load("scenes/fig7-tram-shadow.toml", {"film.samples=1"}, image));
 }
 
 }  // namespace
@@ -115,10 +140,12 @@ int main(int argc, char** argv) {
     objects(smoke ? 30 : quick ? 3000 : 100000);
   } else if (what == "pixels") {
     pixels(quick);
+  } else if (what == "scenes") {
+    scenes(quick, smoke);
   } else if (what == "threads") {
     threads(quick);
   } else {
-    std::cerr << "chart_scaling objects|pixels|threads [--quick]\n";
+    std::cerr << "chart_scaling objects|pixels|scenes|threads [--quick]\n";
     return 2;
   }
 }

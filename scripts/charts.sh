@@ -13,7 +13,7 @@
 #             c  wavelengths: colour error and cost
 #             d  sampling: uniform and adaptive
 #             e  the dial: tolerance asked for, error delivered, time (measured together with d)
-#             f  cost by the number of objects, pixels and threads
+#             f  cost by the number of objects, pixels and threads, and of real scenes
 #             g  each piece of the model left out: cost and error
 #
 # MEASURE_WITH, if set, is a command to be put before each measuring program, such as 'nice -n -5'; CHART_PROGRAMS a folder with the
@@ -107,6 +107,7 @@ measure_chart() {
     f)
       measure chart_scaling objects "${flag[@]}" | joined "$out/objects.csv"
       measure chart_scaling pixels "${flag[@]}" | joined "$out/pixels.csv"
+      measure chart_scaling scenes "${flag[@]}" | joined "$out/scenes.csv"
       measure chart_scaling threads "${flag[@]}" | joined "$out/threads.csv"
       ;;
     g)

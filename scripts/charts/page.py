@@ -114,9 +114,19 @@ def pixels(folder):
     return table(("pixels", "at rest: CPU time, and of a pixel", "every one its own velocity"), lines)
 
 
+def scenes(folder):
+    all_rows = rows(folder, "scenes")
+    by = {(row["scene"], row["pixels"]): 1e9 * float(row["cpu_seconds"]) / int(row["pixels"]) for row in all_rows}
+    sizes = {row["pixels"]: row["width"] + "x" + row["height"] for row in all_rows}
+    of_scene = {row["scene"]: (row["scene"], row["surfaces"], row["frames"], row["colours"]) for row in all_rows}
+    return table(("scene", "surfaces", "frames", "colours", *(f"{size}: ns a pixel" for size in sizes.values())),
+                 [(*words, *(f"{by[name, pixels]:.0f}" for pixels in sizes)) for name, words in of_scene.items()])
+
+
 def threads(folder):
-    return table(("threads", "seconds", "times as fast"),
-                 [(row["threads"], short(row["wall_seconds"], 3), short(row["speed_up"], 3)) for row in rows(folder, "threads")])
+    return table(("scene", "threads", "seconds", "times as fast"),
+                 [(row["scene"], row["threads"], short(row["wall_seconds"], 3), short(row["speed_up"], 3))
+                  for row in rows(folder, "threads")])
 
 
 def ablation(folder):
@@ -194,7 +204,7 @@ def dial(folder):
 
 
 TABLES = {"dial": dial, "roots": roots, "arithmetic": arithmetic, "wavelengths": wavelengths, "sampling": sampling, "objects": objects,
-          "pixels": pixels, "threads": threads, "ablation": ablation, "beside": beside}
+          "pixels": pixels, "scenes": scenes, "threads": threads, "ablation": ablation, "beside": beside}
 
 
 def machine(folder):

@@ -101,7 +101,8 @@ std::size_t words_of_row(const ImageLayout& rows) {
 /// 128: what EXR's ZIP hands to zlib.
 void split_into_differences(std::span<const std::uint16_t> words, std::vector<std::uint8_t>& bytes) {
   bytes.resize(2 * words.size());
-  // Plain pointers: a byte that is written might be a part of a vector's own, which would be read anew for each.
+  // Plain pointers: a byte that is written might be a part of a vector's own, which would be read anew for
+  // each.
   const std::size_t count = words.size();
   const std::uint16_t* const word = words.data();
   std::uint8_t* const lower = bytes.data();

@@ -33,7 +33,8 @@ bool fits_half(float value) {
 bool all_within(std::span<const float> values, float greatest) {
   const auto most = std::bit_cast<std::int32_t>(greatest);
   std::int32_t beyond = 0;
-  for (const float value : values) beyond |= (std::bit_cast<std::int32_t>(value) & 0x7fffffff) > most ? -1 : 0;
+  for (const float value : values)
+    beyond |= (std::bit_cast<std::int32_t>(value) & 0x7fffffff) > most ? -1 : 0;
   return beyond == 0;
 }
 

@@ -18,7 +18,8 @@ SURE = {  # columns that are there, and rows that there are at least
     "dial": (("scene", "method", "setting", "cpu_seconds", "samples", "rms"), 12),
     "objects": (("motion", "path", "spheres", "cpu_seconds"), 10),
     "pixels": (("motion", "pixels", "cpu_seconds"), 8),
-    "threads": (("threads", "wall_seconds", "speed_up"), 1),
+    "scenes": (("scene", "surfaces", "frames", "colours", "pixels", "cpu_seconds"), 6),
+    "threads": (("scene", "threads", "wall_seconds", "speed_up"), 2),
     "ablation": (("scene", "left_out", "cpu_seconds", "times_whole", "rms"), 22),
 }
 FINITE = ("cpu_seconds", "rms", "times_whole", "times_rgb", "samples", "rays_per_second", "speed_up", "mean")
