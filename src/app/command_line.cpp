@@ -17,7 +17,8 @@
 namespace backlight {
 namespace {
 
-constexpr std::array command_names{"render", "check", "compare", "view", "info", "assemble", "schema"};
+constexpr std::array command_names{"render", "check", "compare",  "view",
+                                   "info",   "probe", "assemble", "schema"};
 
 // Help that reads like a manual page: names, value and meaning in columns, wrapped at 100 characters.
 class HelpFormatter : public CLI::Formatter {
@@ -465,13 +466,16 @@ Parser compare_parser() {
   return parser;
 }
 
+void add_eye(CLI::App& app, std::size_t& view, const char* group) {
+  add_value(app, "--eye", "EYE", "left (the default) or right, of a stereo pair",
+            choice<std::size_t>({{"left", 0}, {"right", 1}}), [&view](std::size_t eye) { view = eye; })
+      ->group(group);
+}
+
 void add_view_flags(CLI::App& app, ViewOptions& options) {
   const char* group = "Display";
   add_display_flags(app, options.display, group, nullptr);
-  add_value(app, "--eye", "EYE", "left (the default) or right, of a stereo pair",
-            choice<std::size_t>({{"left", 0}, {"right", 1}}),
-            [&options](std::size_t view) { options.view = view; })
-      ->group(group);
+  add_eye(app, options.view, group);
   add_flag(
       app, "--why", options.why,
       "paint black pixels in the colour of why they are: missed blue, shadowed orange, shifted out of the "
@@ -531,6 +535,35 @@ Parser info_parser() {
   return parser;
 }
 
+Parser probe_parser() {
+  struct State {
+    ProbeOptions options;
+    std::vector<std::string> words;  // the file, then pixels
+  };
+  const auto state = std::make_shared<State>();
+  Parser parser{make_app("probe",
+                         "Tell what an image has at some pixels: object, Doppler factor, angles, times, "
+                         "distance. Pixels are counted from the top left, as --crop does.",
+                         "probe IMAGE.exr X,Y [X,Y ...] [options]"),
+                {}};
+  CLI::App& app = *parser.app;
+  app.add_option("IMAGE.exr", state->words);
+  add_eye(app, state->options.view, "Output");
+  add_flag(app, "--json", state->options.json, "a JSON object for each pixel, a line each")->group("Output");
+  parser.finish = [state]() -> Command {
+    ProbeOptions finished = state->options;
+    finished.file = image_files(state->words).front();
+    if (state->words.size() < 2) throw CLI::ValidationError("", "no pixel is given, such as 320,180");
+    for (std::size_t i = 1; i < state->words.size(); ++i) {
+      const auto pixel = parse_pixel(state->words[i]);
+      if (!pixel.ok()) throw CLI::ValidationError("", pixel.error());
+      finished.pixels.push_back({pixel.value().first, pixel.value().second});
+    }
+    return finished;
+  };
+  return parser;
+}
+
 Parser assemble_parser() {
   struct State {
     AssembleOptions options;
@@ -564,6 +597,7 @@ Parser parser_of(const std::string& name) {
   if (name == "compare") return compare_parser();
   if (name == "view") return view_parser();
   if (name == "info") return info_parser();
+  if (name == "probe") return probe_parser();
   if (name == "assemble") return assemble_parser();
   if (name == "schema") return schema_parser();
   return render_parser();

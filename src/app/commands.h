@@ -11,6 +11,7 @@ int run(const CompareOptions& options);
 int run(const SchemaOptions& options);
 int run(const ViewOptions& options);
 int run(const InfoOptions& options);
+int run(const ProbeOptions& options);
 int run(const AssembleOptions& options);
 
 }  // namespace backlight

@@ -18,6 +18,7 @@ Commands:
   compare REF NEW     tell whether images are equal, and where and by how much not; HTML report
   view   IMAGE.exr    make a PNG to look at: exposure, tone curve, sRGB; contact sheets
   info   IMAGE.exr    tell what made an image
+  probe  IMAGE.exr X,Y  tell what is at a pixel: object, Doppler factor, angles, times
   assemble PART.exr   put an image together that was rendered in parts with --crop
   schema              print the JSON Schema of the scene format, for editors
 

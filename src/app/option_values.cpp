@@ -56,6 +56,14 @@ Result<PixelBox> parse_crop(std::string_view text) {
   return box;
 }
 
+Result<std::pair<int, int>> parse_pixel(std::string_view text) {
+  const std::size_t comma = std::min(text.find(','), text.size());
+  const auto x = number_text<int>(text.substr(0, comma));
+  const auto y = number_text<int>(text.substr(std::min(comma + 1, text.size())));
+  if (!x || !y) return Failure{"expected a pixel X,Y in whole numbers, such as 320,180, not " + quoted(text)};
+  return std::pair{*x, *y};
+}
+
 Result<std::int64_t> parse_whole(std::string_view text, std::int64_t least, std::int64_t most) {
   const auto value = number_text<std::int64_t>(text);
   if (!value || *value < least || *value > most) {

@@ -15,6 +15,7 @@
 #include "backlight/render/image_sequence.h"
 #include "backlight/render/progress.h"
 #include "backlight/scene/compile.h"
+#include "pixel_probe.h"
 
 namespace backlight {
 
@@ -84,6 +85,13 @@ struct InfoOptions {
   std::vector<std::filesystem::path> files;
 };
 
+struct ProbeOptions {
+  std::filesystem::path file;
+  std::vector<PixelPlace> pixels;  ///< at least one
+  std::size_t view = 0;            ///< 0: left, or the only one; 1: right
+  bool json = false;
+};
+
 struct AssembleOptions {
   std::vector<std::filesystem::path> parts;
   std::filesystem::path output;
@@ -97,7 +105,7 @@ struct Answer {
 };
 
 using Command = std::variant<Answer, RenderOptions, CheckOptions, SchemaOptions, CompareOptions, ViewOptions,
-                             InfoOptions, AssembleOptions>;
+                             InfoOptions, ProbeOptions, AssembleOptions>;
 
 /// Reads the arguments after the program's name.
 Command parse_command_line(const std::vector<std::string>& arguments);

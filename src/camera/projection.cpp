@@ -1,6 +1,7 @@
 #include "backlight/camera/projection.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,10 @@ namespace backlight {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+
+// In the order of the enumeration.
+constexpr std::array<std::string_view, 4> projection_names{"perspective", "equirectangular", "mercator",
+                                                           "fisheye"};
 
 Vec3 on_sphere(const Lens& lens, double longitude, double sin_latitude, double cos_latitude) {
   return cos_latitude * (std::cos(longitude) * lens.forward + std::sin(longitude) * lens.right) +
@@ -56,6 +61,20 @@ std::optional<ImagePoint> fisheye_point(const Lens& lens, const Vec3& c) {
 }
 
 }  // namespace
+
+std::string_view name_of(Projection projection) {
+  return projection_names[static_cast<std::size_t>(projection)];
+}
+
+std::optional<Projection> projection_named(std::string_view name) {
+  const auto found = std::ranges::find(projection_names, name);
+  if (found == projection_names.end()) return std::nullopt;
+  return static_cast<Projection>(found - projection_names.begin());
+}
+
+bool has_fov(Projection projection) {
+  return projection == Projection::perspective || projection == Projection::fisheye;
+}
 
 double perspective_step(const Lens& lens) {
   return 2.0 * std::tan(0.5 * lens.fov) / lens.width;

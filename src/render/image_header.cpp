@@ -1,6 +1,9 @@
 #include "backlight/render/image_header.h"
 
+#include <algorithm>
 #include <charconv>
+#include <numbers>
+#include <utility>
 
 #include "backlight/render/image_identity.h"
 
@@ -48,6 +51,45 @@ std::vector<std::string> region_texts(const Scene& scene) {
   return texts;
 }
 
+// The axes are those of worldToCamera.
+void add_lens(std::vector<ExrAttribute>& list, const CameraView& camera) {
+  const Lens& lens = camera.lens;
+  list.push_back({"backlight/projection", std::string(name_of(lens.projection))});
+  if (has_fov(lens.projection)) list.push_back({"backlight/fov", lens.fov * (180.0 / std::numbers::pi)});
+}
+
+// By object the velocity in the camera's frame, as text; empty of matter in motion.
+std::vector<std::string> velocity_texts(const Scene& scene) {
+  std::vector<std::string> texts(scene.objects.size());
+  for (const SceneFrame& frame : scene.frames) {
+    const RelativeMotion motion = relative_motion(frame.motion.celerity, scene.camera.celerity);
+    const Vec3 v = motion.celerity * (scene.c / motion.gamma) + Vec3{0.0};  // no -0
+    const std::string text = number_text(v.x) + " " + number_text(v.y) + " " + number_text(v.z);
+    for (std::size_t i = 0; i < frame.object_of_surface.size(); ++i) {
+      if (!frame.surfaces->moves(static_cast<int>(i)))
+        texts[static_cast<std::size_t>(frame.object_of_surface[i])] = text;
+    }
+  }
+  return texts;
+}
+
+// What objectId.V numbers, and how it moves: objects of one velocity that follow each other in one text.
+void add_objects(std::vector<ExrAttribute>& list, const Scene& scene) {
+  if (std::ranges::find(scene.film.aovs, "objectId") == scene.film.aovs.end()) return;
+  if (scene.objects.empty() || scene.objects.size() > most_named_objects) return;
+  std::vector<std::string> names;
+  for (const Object& object : scene.objects) names.push_back(object.name);
+  list.push_back({"backlight/objects", std::move(names)});
+  const std::vector<std::string> velocities = velocity_texts(scene);
+  std::vector<std::string> runs;
+  for (std::size_t first = 0, last = 0; first < velocities.size(); first = last + 1) {
+    for (last = first; last + 1 < velocities.size() && velocities[last + 1] == velocities[first];) ++last;
+    if (velocities[first].empty()) continue;
+    runs.push_back(std::to_string(first + 1) + " " + std::to_string(last + 1) + " " + velocities[first]);
+  }
+  list.push_back({"backlight/objectVelocities", std::move(runs)});
+}
+
 }  // namespace
 
 std::string effects_text(const Effects& effects) {
@@ -77,6 +119,8 @@ ExrHeader image_header(const Scene& scene, int wavelengths, const ImageOrigin& o
   list.push_back({"backlight/cameraCelerity", celerity * scene.c});
   list.push_back({"backlight/cameraTime", camera.proper_time / scene.c});
   list.push_back({"backlight/c", scene.c});
+  add_lens(list, camera);
+  add_objects(list, scene);
   if (scene.film.tolerance > 0.0) list.push_back({"backlight/tolerance", scene.film.tolerance});
   if (!scene.film.adaptive) list.push_back({"backlight/samples", std::int32_t{scene.film.samples}});
   list.push_back({"backlight/wavelengths", std::int32_t{wavelengths}});

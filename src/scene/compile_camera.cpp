@@ -76,11 +76,7 @@ void point_lens(const TableView& table, const Vec3& position, bool sound, Lens& 
 }
 
 void read_lens(const TableView& table, const FilmSettings& film, Lens& lens) {
-  const std::string name = table.text("projection");
-  lens.projection = name == "equirectangular" ? Projection::equirectangular
-                    : name == "mercator"      ? Projection::mercator
-                    : name == "fisheye"       ? Projection::fisheye
-                                              : Projection::perspective;
+  lens.projection = projection_named(table.text("projection")).value_or(Projection::perspective);
   lens.width = film.width;
   lens.height = film.height;
   const double degrees = table.number("fov");

@@ -17,6 +17,7 @@ TEST_F(Usage, HelpGoesToStandardOutput) {
                                                     {"check", "-h"},
                                                     {"view", "--help"},
                                                     {"info", "--help"},
+                                                    {"probe", "--help"},
                                                     {"schema", "--help"},
                                                     {"help", "view"},
                                                     {"scene.toml", "--help"}}) {

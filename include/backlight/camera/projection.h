@@ -2,12 +2,21 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "backlight/base/vector.h"
 
 namespace backlight {
 
 enum class Projection { perspective, equirectangular, mercator, fisheye };
+
+/// As in scene files: "perspective", "fisheye"...
+std::string_view name_of(Projection projection);
+/// The projection of this name, if there is one.
+std::optional<Projection> projection_named(std::string_view name);
+
+/// Whether `Lens::fov` says how much it shows.
+bool has_fov(Projection projection);
 
 /// A position on the image, in pixels: (0, 0) is the upper left corner of the upper left pixel, y down.
 struct ImagePoint {

@@ -1,6 +1,7 @@
 // What a file says about how its image was made.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +20,10 @@ struct ImageOrigin {
   std::vector<std::string> overrides;  ///< "path=value"
   std::string identity;                ///< image_identity.h
 };
+
+/// Of a scene of more objects, a file does not tell the names and velocities, with which its header would be
+/// heavy.
+inline constexpr std::size_t most_named_objects = 4096;
 
 /// The header of an image (docs/command-line.md lists the attributes). The clock goes in only as
 /// `creation_time`, and nothing that differs between

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -75,6 +77,52 @@ TEST(ImageHeader, SaysWhichErrorWasAskedForInsteadOfANumberOfSamples) {
   const ExrHeader header = image_header(scene, 12, {"Backlight", "a.toml", "abc", {}}, std::nullopt);
   EXPECT_EQ(*header.find<double>("backlight/tolerance"), 0.01);
   EXPECT_EQ(header.find<std::int32_t>("backlight/samples"), nullptr);
+}
+
+Scene scene_of_objects(const std::vector<Vec3>& celerities) {
+  Scene scene;
+  std::vector<Object> objects;
+  for (const Vec3& celerity : celerities) {
+    SceneFrame frame;
+    frame.motion.celerity = ExtendedVec3(celerity);
+    auto surfaces = std::make_shared<SurfaceSet>();
+    surfaces->add(sphere(1.0), {});
+    surfaces->build();
+    frame.surfaces = surfaces;
+    const int number = static_cast<int>(objects.size());
+    frame.object_of_surface = std::vector<int>{number};
+    scene.frames.push_back(std::move(frame));
+    objects.push_back({number == 1 ? "" : "ball " + std::to_string(number + 1), number + 1, 0, {}});
+  }
+  scene.objects = std::move(objects);
+  scene.c = 5.0;
+  return scene;
+}
+
+TEST(ImageHeader, NamesTheObjectsWhereTheirNumbersAre) {
+  // As seen by a camera of 0.8 c, whose own velocity the last one shares.
+  Scene scene = scene_of_objects({Vec3{0.0}, Vec3{0.0}, {0.0, 0.0, 4.0 / 3.0}});
+  scene.camera.celerity = ExtendedVec3(Vec3{0.0, 0.0, 4.0 / 3.0});
+  const ImageOrigin origin{"Backlight", "a.toml", "abc", {}};
+  EXPECT_EQ(image_header(scene, 0, origin, std::nullopt).find<std::vector<std::string>>("backlight/objects"),
+            nullptr);
+  scene.film.aovs = {"objectId"};
+  const ExrHeader header = image_header(scene, 0, origin, std::nullopt);
+  EXPECT_EQ(*header.find<std::vector<std::string>>("backlight/objects"),
+            (std::vector<std::string>{"ball 1", "", "ball 3"}));
+  EXPECT_EQ(*header.find<std::vector<std::string>>("backlight/objectVelocities"),
+            (std::vector<std::string>{"1 2 0 0 -4", "3 3 0 0 0"}));
+}
+
+TEST(ImageHeader, TellsTheLens) {
+  Scene scene;
+  scene.camera.lens.fov = std::numbers::pi / 3.0;
+  const ImageOrigin origin{"Backlight", "a.toml", "abc", {}};
+  const ExrHeader perspective = image_header(scene, 0, origin, std::nullopt);
+  EXPECT_EQ(*perspective.find<std::string>("backlight/projection"), "perspective");
+  EXPECT_DOUBLE_EQ(*perspective.find<double>("backlight/fov"), 60.0);
+  scene.camera.lens.projection = Projection::mercator;
+  EXPECT_EQ(image_header(scene, 0, origin, std::nullopt).find<double>("backlight/fov"), nullptr);
 }
 
 }  // namespace
