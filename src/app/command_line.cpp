@@ -440,6 +440,9 @@ Parser compare_parser() {
       "to render the worst pixel again",
       parse_text, [state](std::string file) { state->options.html = file; })
       ->group("What to do");
+  add_value(app, "--junit", "FILE.xml", "write the verdicts as JUnit XML, for servers that run tests",
+            parse_text, [state](std::string file) { state->options.junit = file; })
+      ->group("What to do");
   add_value(app, "--scenes", "FOLDER",
             "where the scenes of the images are, for the command lines that render a pixel again", parse_text,
             [state](std::string folder) { state->options.scenes = folder; })
@@ -527,11 +530,21 @@ Parser view_parser() {
 }
 
 Parser info_parser() {
-  const auto files = std::make_shared<std::vector<std::string>>();
-  Parser parser{
-      make_app("info", "Tell what made an image: size, channels, scene, settings.", "info IMAGE.exr..."), {}};
-  parser.app->add_option("IMAGE.exr", *files);
-  parser.finish = [files]() -> Command { return InfoOptions{image_files(*files)}; };
+  struct State {
+    InfoOptions options;
+    std::vector<std::string> files;
+  };
+  const auto state = std::make_shared<State>();
+  Parser parser{make_app("info", "Tell what made an image: size, channels, scene, settings.",
+                         "info IMAGE.exr... [options]"),
+                {}};
+  parser.app->add_option("IMAGE.exr", state->files);
+  add_flag(*parser.app, "--json", state->options.json,
+           "a JSON object for each image, or each part of one, a line each")
+      ->group("Output");
+  parser.finish = [state]() -> Command {
+    return InfoOptions{image_files(state->files), state->options.json};
+  };
   return parser;
 }
 
@@ -738,7 +751,7 @@ Command parse_command_line(const std::vector<std::string>& arguments) {
     return parse_command(word, std::move(rest));
   }
   const bool looks_like_a_file =
-      word.find_first_of("./") != std::string::npos || std::filesystem::exists(word);
+      word == "-" || word.find_first_of("./") != std::string::npos || std::filesystem::exists(word);
   if (!looks_like_a_file) {
     if (const auto option = unknown_option(arguments, place)) {
       const std::string command = meant_command(arguments);

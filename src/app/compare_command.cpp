@@ -7,6 +7,7 @@
 
 #include "backlight/base/files.h"
 #include "commands.h"
+#include "compare_junit.h"
 #include "compare_outcome.h"
 #include "compare_report.h"
 #include "exit_codes.h"
@@ -113,18 +114,23 @@ int run(const CompareOptions& options) {
   const bool single = pairs.value().size() == 1;
   Totals totals;
   CompareReport report(options);
+  JunitReport junit;
   for (const ImagePair& pair : pairs.value()) {
     const std::vector<CompareOutcome> parts = look_at(pair, options, single);
     for (const CompareOutcome& part : options.html.empty() ? std::vector<CompareOutcome>() : parts) {
       if (const auto added = report.add(part); !added.ok()) return trouble(pair.name + ": " + added.error());
     }
     const bool taken = options.update && is_to_be_updated(parts);
+    for (const CompareOutcome& part : parts) junit.add(part, taken);
     const CompareStatus status = taken ? take_as_reference(pair, totals) : status_of(parts);
     ++totals.compared;
     ++totals.counts[static_cast<std::size_t>(status)];
   }
   if (!options.html.empty()) {
     if (const auto written = report.write(options.html); !written.ok()) return trouble(written.error());
+  }
+  if (!options.junit.empty()) {
+    if (const auto written = junit.write(options.junit); !written.ok()) return trouble(written.error());
   }
   if (!single && options.verbosity != Verbosity::quiet) std::cout << summary(totals) << '\n';
   return exit_code(totals);

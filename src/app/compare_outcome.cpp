@@ -122,7 +122,7 @@ std::string render_again(const ExrPicture& picture, int x, int y, const std::fil
   const ImageLayout& layout = picture.image.layout();
   const auto* scene = header.find<std::string>("backlight/scene");
   if (scene == nullptr) return {};
-  std::string command = "backlight render " + shell_word((scenes / *scene).string());
+  std::string command = "backlight render " + shell_word(*scene == "-" ? "-" : (scenes / *scene).string());
   for (const std::string& text : attribute(header, "backlight/overrides", std::vector<std::string>{})) {
     command += " -D " + shell_word(text);
   }

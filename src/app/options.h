@@ -21,10 +21,15 @@ namespace backlight {
 
 /// A scene file, and what is changed in it.
 struct SceneOptions {
-  std::filesystem::path file;
+  std::filesystem::path file;          ///< "-": standard input
   std::vector<std::string> overrides;  ///< "path=value", of -D
   ImageRequest request;                ///< camera and film; which frame is for the command to say
 };
+
+/// Whether a scene is to come from the standard input. A file of that name is "./-".
+inline bool is_standard_input(const std::filesystem::path& scene) {
+  return scene == "-";
+}
 
 /// How much is said on stderr, errors apart.
 enum class Verbosity { quiet, normal, verbose };
@@ -65,6 +70,7 @@ struct CompareOptions {
   std::filesystem::path now;        ///< the same
   CompareLimits limits;
   std::filesystem::path html;    ///< report to write; empty: none
+  std::filesystem::path junit;   ///< the verdicts as JUnit XML; empty: none
   std::filesystem::path scenes;  ///< folder of the scenes, whose files' names alone are in the images
   bool update = false;           ///< the new images take the places of references that they differ from
   Verbosity verbosity = Verbosity::normal;
@@ -83,6 +89,7 @@ struct ViewOptions {
 
 struct InfoOptions {
   std::vector<std::filesystem::path> files;
+  bool json = false;
 };
 
 struct ProbeOptions {

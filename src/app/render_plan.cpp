@@ -18,7 +18,8 @@ bool names_a_folder(const fs::path& path) {
 }
 
 Result<OutputPattern> output_pattern(const RenderOptions& options) {
-  const std::string usual = options.scene.file.stem().string() + ".exr";
+  const std::string usual =
+      is_standard_input(options.scene.file) ? "stdin.exr" : options.scene.file.stem().string() + ".exr";
   if (!options.output) return OutputPattern::literal(usual);
   const fs::path example = options.output->path(1);
   if (names_a_folder(example)) return options.output->with_file(usual);

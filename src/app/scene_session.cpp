@@ -6,11 +6,27 @@
 #include "backlight/scene/reader.h"
 #include "exit_codes.h"
 #include "messages.h"
+#include "signals.h"
+#include "standard_streams.h"
 
 namespace backlight {
 
+namespace {
+
+ReadResult read_scene_of(const SceneOptions& options) {
+  if (!is_standard_input(options.file)) return read_scene(options.file, options.overrides);
+  const auto text = read_standard_input();
+  if (text.ok()) return read_scene_text(text.value(), "<stdin>", options.overrides);
+  ReadResult result;
+  result.unreadable = true;
+  result.diagnostics.error({}, text.error());
+  return result;
+}
+
+}  // namespace
+
 SceneSession::SceneSession(const SceneOptions& options) {
-  ReadResult result = read_scene(options.file, options.overrides);
+  ReadResult result = read_scene_of(options);
   found_by_reading_ = std::move(result.diagnostics);
   if (result.description) {
     description_.emplace(*std::move(result.description));
@@ -18,6 +34,7 @@ SceneSession::SceneSession(const SceneOptions& options) {
   }
   print(found_by_reading_);
   exit_code_ = result.unreadable ? exit_file_trouble : exit_scene_wrong;
+  if (stop_requested()) exit_code_ = exit_stopped + stop_signal();
 }
 
 std::optional<Scene> SceneSession::compile(const ImageRequest& request) {

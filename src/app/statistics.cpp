@@ -1,8 +1,10 @@
 #include "statistics.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -35,6 +37,30 @@ class JsonObject {
   std::string members_;
 };
 
+std::string roots_json(const std::vector<RootSearch>& roots) {
+  std::string list;
+  for (const RootSearch& search : roots) {
+    JsonObject object;
+    object.text("shape", std::string(name(search.shape)))
+        .text("finder", std::string(code_of(search.finder)))
+        .count("surfaces", search.surfaces);
+    list += (list.empty() ? "" : ",") + object.str();
+  }
+  return "[" + list + "]";
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+// The most that the process has had in memory at once, in bytes.
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
 }  // namespace
 
 std::string statistics_json(const Scene& scene, const Needs& needs, const RenderSettings& settings,
@@ -54,11 +80,15 @@ std::string statistics_json(const Scene& scene, const Needs& needs, const Render
   }
   object.text("model", settings.wavelengths > 0 ? "spectral" : "rgb")
       .number("wavelengths", settings.wavelengths)
+      .text("modelCode", std::string(code_of(needs.reason)))
       .text("modelWhy", needs.why)
+      .text("wavelengthsCode", std::string(code_of(needs.wavelength_reason)))
       .text("wavelengthsWhy", needs.why_so_many);
   object.count("frames", needs.frames).count("movingFrames", needs.moving_frames);
   object.count("extendedFrames", needs.extended_frames).count("surfaces", needs.surfaces);
-  object.text("roots", in_words(needs.roots)).count("textures", needs.textures);
+  object.text("roots", in_words(needs.roots)).json("rootSearches", roots_json(needs.roots));
+  object.count("textures", needs.textures);
+  object.text("host", host_name()).count("peakMemory", peak_memory());
   object.number("threads", statistics.threads).number("seconds", statistics.seconds);
   object.number("threadSeconds", statistics.thread_seconds);
   object.count("cameraRays", statistics.rays.primary).count("shadowRays", statistics.rays.shadow);

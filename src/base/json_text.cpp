@@ -52,20 +52,49 @@ std::string escaped(char c) {
   return code.data();
 }
 
-}  // namespace
+constexpr const char* replacement = "\xEF\xBF\xBD";  // U+FFFD
 
-std::string json_quoted(std::string_view text) {
-  std::string quoted = "\"";
+std::string of_xml(char c) {
+  switch (c) {
+    case '&':
+      return "&amp;";
+    case '<':
+      return "&lt;";
+    case '>':
+      return "&gt;";
+    case '"':
+      return "&quot;";
+    default:
+      break;
+  }
+  const bool is_text = static_cast<unsigned char>(c) >= 0x20U || c == '\n' || c == '\t';
+  return is_text ? std::string{c} : replacement;
+}
+
+// The text with its single bytes written by `write`, and what is no UTF-8 replaced.
+template <typename Write>
+std::string rewritten(std::string_view text, const Write& write) {
+  std::string result;
   while (!text.empty()) {
     const std::size_t length = character_length(text);
     if (length == 1) {
-      quoted += escaped(text.front());
+      result += write(text.front());
     } else {
-      quoted += length == 0 ? "\xEF\xBF\xBD" : text.substr(0, length);
+      result += length == 0 ? replacement : text.substr(0, length);
     }
     text.remove_prefix(length == 0 ? 1 : length);
   }
-  return quoted + '"';
+  return result;
+}
+
+}  // namespace
+
+std::string json_quoted(std::string_view text) {
+  return '"' + rewritten(text, escaped) + '"';
+}
+
+std::string xml_escaped(std::string_view text) {
+  return rewritten(text, of_xml);
 }
 
 std::string json_number(double value) {

@@ -65,6 +65,7 @@ Needs needs_within_tolerance(const Scene& scene) {
     needs.wavelengths = count;
     break;
   }
+  needs.wavelength_reason = WavelengthReason::tolerance;
   needs.why_so_many = "the fewest of which no colour of " + std::to_string(columns * rows) +
                       " rays over the image is off by more than half the tolerance, of white or of itself";
   return needs;

@@ -1,7 +1,9 @@
 #include "backlight/scene/needs.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "backlight/colour/observer.h"
 
@@ -51,47 +53,61 @@ Shifts shifts_shown(const Scene& scene) {
   return shifts;
 }
 
-// The first motion that shifts a colour, or empty.
-std::string shifting_motion(const Scene& scene, const Shifts& shown) {
+// A motion that shifts a colour, in words.
+struct ShiftingMotion {
+  ModelReason reason = ModelReason::object_moves;
+  std::string words;
+};
+
+// The first of them, if there is any.
+std::optional<ShiftingMotion> shifting_motion(const Scene& scene, const Shifts& shown) {
   const ExtendedVec3& camera = scene.camera.celerity;
   if (shown.to_camera && scene.sky.emits && moves(celerity_of(scene, scene.sky.frame), camera)) {
-    return "the background moves relative to the camera";
+    return ShiftingMotion{ModelReason::background_moves, "the background moves relative to the camera"};
   }
   for (const SceneFrame& frame : scene.frames) {
     if (frame.object_of_surface.empty()) continue;
     const bool turns = frame.surfaces->any_moves();
     if (shown.to_camera && (turns || moves(frame.motion.celerity, camera))) {
-      return name_of(scene, frame) + " moves relative to the camera";
+      return ShiftingMotion{ModelReason::object_moves,
+                            name_of(scene, frame) + " moves relative to the camera"};
     }
     for (const Light& light : scene.lights) {
       if (!shown.from_light || light.kind == LightKind::ambient) continue;
       const bool goes =
           turns || light.motion || moves(celerity_of(scene, light.frame), frame.motion.celerity);
       if (!goes) continue;
-      return name_of(scene, light) + " and " + name_of(scene, frame) + " move relative to each other";
+      return ShiftingMotion{
+          ModelReason::light_moves,
+          name_of(scene, light) + " and " + name_of(scene, frame) + " move relative to each other"};
     }
   }
-  return {};
+  return std::nullopt;
 }
 
 void choose_model(const Scene& scene, Needs& needs) {
-  const std::string all_motion = shifting_motion(scene, {true, true});
-  const std::string shown_motion = shifting_motion(scene, shifts_shown(scene));
-  needs.spectral = !shown_motion.empty();
+  const auto all_motion = shifting_motion(scene, {true, true});
+  const auto shown_motion = shifting_motion(scene, shifts_shown(scene));
+  needs.spectral = shown_motion.has_value();
   if (needs.spectral) {
     const bool given = scene.film.wavelengths > 0;
     needs.wavelengths = given ? scene.film.wavelengths : default_wavelength_count;
+    needs.wavelength_reason = given ? WavelengthReason::given : WavelengthReason::usual;
     needs.why_so_many = given ? "as given" : "the default";
   }
-  if (needs.spectral) {
-    needs.why = shown_motion;
-  } else if (all_motion.empty() && needs.stars > 0 &&
+  const auto because = [&needs](ModelReason reason, std::string words) {
+    needs.reason = reason;
+    needs.why = std::move(words);
+  };
+  if (shown_motion) {
+    because(shown_motion->reason, shown_motion->words);
+  } else if (!all_motion && needs.stars > 0 &&
              moves(celerity_of(scene, scene.sky.frame), scene.camera.celerity)) {
-    needs.why = "only stars shift, and their colours are found once an image";
-  } else if (all_motion.empty()) {
-    needs.why = "nothing moves relative to anything else";
+    because(ModelReason::only_stars_shift, "only stars shift, and their colours are found once an image");
+  } else if (!all_motion) {
+    because(ModelReason::nothing_moves, "nothing moves relative to anything else");
   } else {
-    needs.why = "the effects show no shift of colours";
+    because(ModelReason::effects_off, "the effects show no shift of colours");
   }
 }
 
@@ -105,7 +121,7 @@ void count_roots(const Shape& shape, std::size_t surfaces, std::vector<RootSearc
   if (found != roots.end()) {
     found->surfaces += surfaces;
   } else {
-    roots.push_back({shape.kind, root_finding(shape), surfaces});
+    roots.push_back({shape.kind, root_finder(shape), root_finding(shape), surfaces});
   }
 }
 
@@ -156,6 +172,56 @@ Needs needs_of(const Scene& scene) {
   needs.shadow_rays = needs.surfaces > 0 && needs.shadowing_lights > 0;
   choose_model(scene, needs);
   return needs;
+}
+
+std::string_view code_of(ModelReason reason) {
+  switch (reason) {
+    case ModelReason::background_moves:
+      return "background-moves";
+    case ModelReason::object_moves:
+      return "object-moves";
+    case ModelReason::light_moves:
+      return "light-moves";
+    case ModelReason::only_stars_shift:
+      return "only-stars-shift";
+    case ModelReason::nothing_moves:
+      return "nothing-moves";
+    case ModelReason::effects_off:
+      break;
+  }
+  return "effects-off";
+}
+
+std::string_view code_of(WavelengthReason reason) {
+  switch (reason) {
+    case WavelengthReason::given:
+      return "given";
+    case WavelengthReason::usual:
+      return "default";
+    case WavelengthReason::tolerance:
+      return "tolerance";
+    case WavelengthReason::none:
+      break;
+  }
+  return "none";
+}
+
+std::string_view code_of(RootFinder finder) {
+  switch (finder) {
+    case RootFinder::closed_form:
+      return "closed-form";
+    case RootFinder::quartic:
+      return "quartic";
+    case RootFinder::interval:
+      return "interval";
+    case RootFinder::polynomial:
+      return "polynomial";
+    case RootFinder::affine:
+      return "affine";
+    case RootFinder::solid:
+      break;
+  }
+  return "csg";
 }
 
 std::string in_words(const std::vector<RootSearch>& roots) {

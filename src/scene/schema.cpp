@@ -99,11 +99,15 @@ void add_default(Json& schema, const Key& key) {
   }
 }
 
-Json key_schema(const Key& key) {
+std::string description_of(const Key& key) {
   std::string description(key.meaning);
   if (!key.unit.empty()) description += " Unit: " + std::string(key.unit) + ".";
+  return description;
+}
+
+Json key_schema(const Key& key) {
   Json schema = Json::object();
-  schema.add("description", Json::text(description));
+  schema.add("description", Json::text(description_of(key)));
   if (key.forms.size() == 1) {
     schema.add("allOf", Json::array({form_schema(key, key.forms.front())}));
   } else {
@@ -127,6 +131,50 @@ void add_keys(Json& properties, const KeyTable& table) {
   for (const Key& key : table.keys) properties.add(key.name, key_schema(key));
 }
 
+std::vector<const KeyTable*> variants_of(const KeyTable& table) {
+  std::vector<const KeyTable*> variants;
+  if (table.selector.empty()) return variants;
+  for (const std::string_view choice : find_key(table, table.selector)->choices)
+    variants.push_back(find_variant(table, choice));
+  return variants;
+}
+
+// What a key means in each of the variants that have it; what it may hold is said by the variants alone.
+Json meanings_schema(const KeyTable& table, std::string_view name) {
+  std::string meanings;
+  for (const KeyTable* variant : variants_of(table)) {
+    const Key* key = find_key(*variant, name);
+    if (key == nullptr) continue;
+    meanings +=
+        (meanings.empty() ? "`" : " `") + std::string(choice_of(*variant)) + "`: " + description_of(*key);
+  }
+  return std::move(Json::object().add("description", Json::text(meanings)));
+}
+
+// The keys of all variants, each once: an editor offers them before a choice is written. Without defaults,
+// which some checkers fill in, whatever the choice.
+void add_variants_keys(Json& properties, const KeyTable& table) {
+  std::vector<std::string_view> added;
+  for (const KeyTable* variant : variants_of(table)) {
+    for (const Key& key : variant->keys) {
+      if (find_key(table, key.name) != nullptr) continue;  // the variant's row has it more exactly
+      if (std::find(added.begin(), added.end(), key.name) != added.end()) continue;
+      added.push_back(key.name);
+      properties.add(key.name, meanings_schema(table, key.name));
+    }
+  }
+}
+
+// All keys that a table may have with this choice.
+Json names_with(const KeyTable& table, const KeyTable& variant) {
+  std::vector<std::string_view> names;
+  for (const Key& key : table.keys) names.push_back(key.name);
+  for (const Key& key : variant.keys) {
+    if (find_key(table, key.name) == nullptr) names.push_back(key.name);
+  }
+  return std::move(Json::object().add("enum", Json::array(texts(names))));
+}
+
 // "If the shape is a sphere, its keys are these." The default choice is also meant when none is written.
 Json variant_schema(const KeyTable& table, std::string_view choice) {
   const Key& selector = *find_key(table, table.selector);
@@ -142,6 +190,7 @@ Json variant_schema(const KeyTable& table, std::string_view choice) {
   add_keys(properties, variant);
   Json consequence = Json::object();
   consequence.add("properties", std::move(properties));
+  consequence.add("propertyNames", names_with(table, variant));
   if (const auto required = required_keys(variant); !required.empty()) {
     consequence.add("required", Json::array(required));
   }
@@ -155,6 +204,7 @@ Json table_schema(const KeyTable& table) {
   schema.add("description", Json::text(table.meaning));
   Json properties = Json::object();
   add_keys(properties, table);
+  add_variants_keys(properties, table);
   schema.add("properties", std::move(properties));
   if (const auto required = required_keys(table); !required.empty())
     schema.add("required", Json::array(required));
@@ -165,8 +215,8 @@ Json table_schema(const KeyTable& table) {
     }
     schema.add("allOf", Json::array(variants));
   }
-  // Unlike additionalProperties, this sees the keys that a variant adds.
-  schema.add("unevaluatedProperties", Json::boolean(false));
+  // Not unevaluatedProperties, which would see the keys that a variant adds: editors' checkers ignore it.
+  schema.add("additionalProperties", Json::boolean(false));
   return schema;
 }
 
