@@ -6,24 +6,29 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "backlight/base/diagnostics.h"
 #include "help_text.h"
+#include "manual.h"
 #include "option_values.h"
 #include "options.h"
 
 namespace backlight {
 namespace {
 
-constexpr std::array command_names{"render", "check", "compare",  "view",
-                                   "info",   "probe", "assemble", "schema"};
+constexpr std::array command_names{"render", "check",    "compare", "view",  "info",
+                                   "probe",  "assemble", "schema",  "manual"};
 
 // Help that reads like a manual page: names, value and meaning in columns, wrapped at 100 characters.
 class HelpFormatter : public CLI::Formatter {
  public:
   explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) {}
+
+  [[nodiscard]] const std::string& usage() const { return usage_; }
 
   std::string make_usage(const CLI::App* /*app*/, std::string /*name*/) const override {
     return "\nUsage: " + usage_ + "\n";
@@ -104,6 +109,30 @@ auto choice(std::vector<std::pair<std::string, Value>> choices) {
     }
     return not_one_of(names, text);
   };
+}
+
+// An option that reads one of these words. They go into a remark on its values that CLI11 does not act upon,
+// and words_of() takes them out again: for completion.
+constexpr const char* words_remark = "words";
+
+template <class Value, class Set>
+CLI::Option* add_choice(CLI::App& app, const char* names, const char* value, const std::string& help,
+                        std::vector<std::pair<std::string, Value>> choices, Set set) {
+  std::string words;
+  for (const auto& [name, one] : choices) words += (words.empty() ? "" : " ") + name;
+  CLI::Validator remark([](std::string& /*text*/) { return std::string(); }, words, words_remark);
+  return add_value(app, names, value, help, choice(std::move(choices)), set)->check(remark.active(false));
+}
+
+std::vector<std::string> words_of(CLI::Option& option) {
+  std::string words;
+  try {
+    CLI::Validator remark = *option.get_validator(words_remark);
+    words = remark.active().get_description();
+  } catch (const CLI::OptionNotFound&) {
+  }
+  std::istringstream list(words);
+  return {std::istream_iterator<std::string>(list), {}};
 }
 
 // One command: its options, where their values go, and what is still to check when all are read.
@@ -217,18 +246,19 @@ void add_display_flags(CLI::App& app, DisplayChoice& display, const char* group,
                  "brighten by a factor of 2 a stop, negative darkens; auto shows the log-average luminance "
                  "as middle grey")
           ->type_name("STOPS"));
-  finish(add_value(app, "--tone", "CURVE",
-                   of_pngs + "what becomes of light beyond white. auto (the default): none if next to "
-                             "nothing is, else reinhard, or "
-                             "drago where many powers of ten are, exposed so that nothing is cut, and named "
-                             "on stderr; none: cut; "
-                             "drago: logarithm, exposed by itself; reinhard; log",
-                   choice<std::optional<ToneCurve>>({{"auto", std::nullopt},
-                                                     {"none", ToneCurve::none},
-                                                     {"drago", ToneCurve::drago},
-                                                     {"reinhard", ToneCurve::reinhard},
-                                                     {"log", ToneCurve::logarithmic}}),
-                   [&display](std::optional<ToneCurve> curve) { display.tone = curve; }));
+  finish(add_choice<std::optional<ToneCurve>>(
+      app, "--tone", "CURVE",
+      of_pngs + "what becomes of light beyond white. auto (the default): none if next to "
+                "nothing is, else reinhard, or "
+                "drago where many powers of ten are, exposed so that nothing is cut, and named "
+                "on stderr; none: cut; "
+                "drago: logarithm, exposed by itself; reinhard; log",
+      {{"auto", std::nullopt},
+       {"none", ToneCurve::none},
+       {"drago", ToneCurve::drago},
+       {"reinhard", ToneCurve::reinhard},
+       {"log", ToneCurve::logarithmic}},
+      [&display](std::optional<ToneCurve> curve) { display.tone = curve; }));
   finish(add_value(app, "--white", "L",
                    of_pngs +
                        "luminance that the curve shows as white, after exposure; default 1000, for drago the "
@@ -301,14 +331,14 @@ void add_run_flags(CLI::App& app, RenderOptions& options) {
   add_value(app, "-t,--threads", "N", "threads to use; default: the CPUs that this process may use",
             whole(1, 65536), [&options](std::int64_t count) { options.threads = static_cast<int>(count); })
       ->group(group);
-  add_value(app, "--progress", "STYLE",
-            "auto (a bar on a terminal, else lines), bar, lines, json or none; on stderr",
-            choice<ProgressStyle>({{"auto", ProgressStyle::automatic},
-                                   {"bar", ProgressStyle::bar},
-                                   {"lines", ProgressStyle::lines},
-                                   {"json", ProgressStyle::json},
-                                   {"none", ProgressStyle::none}}),
-            [&options](ProgressStyle style) { options.progress = style; })
+  add_choice<ProgressStyle>(app, "--progress", "STYLE",
+                            "auto (a bar on a terminal, else lines), bar, lines, json or none; on stderr",
+                            {{"auto", ProgressStyle::automatic},
+                             {"bar", ProgressStyle::bar},
+                             {"lines", ProgressStyle::lines},
+                             {"json", ProgressStyle::json},
+                             {"none", ProgressStyle::none}},
+                            [&options](ProgressStyle style) { options.progress = style; })
       ->group(group);
   add_flag(app, "--dry-run", options.dry_run, "check the scene and print the files that would be written")
       ->group(group);
@@ -470,8 +500,8 @@ Parser compare_parser() {
 }
 
 void add_eye(CLI::App& app, std::size_t& view, const char* group) {
-  add_value(app, "--eye", "EYE", "left (the default) or right, of a stereo pair",
-            choice<std::size_t>({{"left", 0}, {"right", 1}}), [&view](std::size_t eye) { view = eye; })
+  add_choice<std::size_t>(app, "--eye", "EYE", "left (the default) or right, of a stereo pair",
+                          {{"left", 0}, {"right", 1}}, [&view](std::size_t eye) { view = eye; })
       ->group(group);
 }
 
@@ -605,6 +635,45 @@ Parser assemble_parser() {
   return parser;
 }
 
+CommandManual manual_of(const std::string& name);
+
+Parser manual_parser() {
+  struct State {
+    std::vector<std::string> commands;
+    bool bash = false;
+    bool zsh = false;
+  };
+  const auto state = std::make_shared<State>();
+  Parser parser{
+      make_app("manual",
+               "Print a manual page, of the program or of a command, as `man -l -` reads it; or completion "
+               "for a shell.",
+               "manual [COMMAND] | man -l -\n       backlight manual --bash > FILE"),
+      {}};
+  parser.app->add_option("COMMAND", state->commands);
+  add_flag(*parser.app, "--bash", state->bash, "print completion for bash instead")->group("Output");
+  add_flag(*parser.app, "--zsh", state->zsh, "print completion for zsh instead")->group("Output");
+  parser.finish = [state]() -> Command {
+    if (int(state->bash) + int(state->zsh) + int(state->commands.size()) > 1)
+      throw CLI::ValidationError("", "one page or one shell at a time");
+    const auto date = source_date_epoch();
+    if (!date.ok()) throw CLI::ValidationError("", date.error());
+    if (!state->commands.empty()) {
+      const std::string& command = state->commands.front();
+      const std::vector<std::string> names{command_names.begin(), command_names.end()};
+      if (std::ranges::find(names, command) == names.end())
+        throw CLI::ValidationError("", not_one_of(names, command).message);
+      return Answer{manual_page(manual_of(command), date.value()), false};
+    }
+    std::vector<CommandManual> all;
+    for (const char* name : command_names) all.push_back(manual_of(name));
+    if (state->bash) return Answer{bash_completion(all), false};
+    if (state->zsh) return Answer{zsh_completion(all), false};
+    return Answer{manual_page(all, date.value()), false};
+  };
+  return parser;
+}
+
 Parser parser_of(const std::string& name) {
   if (name == "check") return check_parser();
   if (name == "compare") return compare_parser();
@@ -613,6 +682,7 @@ Parser parser_of(const std::string& name) {
   if (name == "probe") return probe_parser();
   if (name == "assemble") return assemble_parser();
   if (name == "schema") return schema_parser();
+  if (name == "manual") return manual_parser();
   return render_parser();
 }
 
@@ -620,6 +690,36 @@ Parser make_parser(const std::string& name) {
   Parser parser = parser_of(name);
   parser.app->set_help_flag("-h,--help", "print this help")->group("Other");
   return parser;
+}
+
+OptionManual manual_of(CLI::Option& option) {
+  OptionManual manual;
+  for (const std::string& name : option.get_snames()) manual.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) manual.names.push_back("--" + name);
+  manual.value = option.get_type_name();
+  manual.words = words_of(option);
+  manual.meaning = option.get_description();
+  manual.group = option.get_group();
+  return manual;
+}
+
+// The groups in the order of --help.
+CommandManual manual_of(const std::string& name) {
+  const Parser parser = make_parser(name);
+  CLI::App& app = *parser.app;
+  CommandManual manual{name, app.get_description(), {}, {}, {}};
+  manual.usage = dynamic_cast<const HelpFormatter&>(*app.get_formatter()).usage().substr(10);
+  for (const std::string& group : app.get_groups()) {
+    for (CLI::Option* option :
+         app.get_options([&group](const CLI::Option* one) { return one->get_group() == group; })) {
+      if (option->get_positional()) {
+        manual.operands = option->get_name();
+      } else {
+        manual.options.push_back(manual_of(*option));
+      }
+    }
+  }
+  return manual;
 }
 
 bool is_flag(const std::string& argument) {

@@ -6,9 +6,27 @@
 
 namespace backlight {
 
-std::string general_help() {
-  return R"(Backlight renders scenes as special relativity shows them.
+std::string program_text() {
+  return "Backlight renders scenes as special relativity shows them.\n";
+}
 
+std::string exit_status_text() {
+  return "0 all images written; 1 an image failed; 2 the command line is wrong; 3 the scene is wrong;\n"
+         "4 a file cannot be read or written; 128+n stopped by signal n. compare: 0 equal; 1 differs; 2 "
+         "trouble.\n";
+}
+
+std::vector<std::pair<std::string, std::string>> environment_variables() {
+  return {{"BACKLIGHT_MODULE_PATH",
+           "folder of the modules that are loaded on demand; default: lib/backlight beside the program's "
+           "folder."},
+          {"SLURM_CPUS_PER_TASK", "the most threads that are used where -t does not say how many."},
+          {"SOURCE_DATE_EPOCH", "seconds since 1970 that images are dated by; without it they have no date."},
+          {"NO_COLOR", "turns the colour of messages off, if it is not empty."}};
+}
+
+std::string general_help() {
+  return program_text() + R"(
 Usage: backlight [render] SCENE.toml [options]
        backlight COMMAND ...
 
@@ -21,12 +39,12 @@ Commands:
   probe  IMAGE.exr X,Y  tell what is at a pixel: object, Doppler factor, angles, times
   assemble PART.exr   put an image together that was rendered in parts with --crop
   schema              print the JSON Schema of the scene format, for editors
+  manual              print manual pages, and completion for shells
 
 'backlight COMMAND --help' lists the options of a command; 'backlight --version' prints the version.
 
-Exit status: 0 all images written; 1 an image failed; 2 the command line is wrong; 3 the scene is wrong;
-4 a file cannot be read or written; 128+n stopped by signal n. compare: 0 equal; 1 differs; 2 trouble.
-)";
+Exit status: )" +
+         exit_status_text();
 }
 
 std::string help_row(std::string option, const std::string& meaning) {
