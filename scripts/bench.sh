@@ -31,5 +31,5 @@ for argument in "$@"; do [[ $argument == -h || $argument == --help ]] && sed -n 
 
 scripts/install.sh build bench
 cmake --preset bench >/dev/null
-cmake --build --preset bench --target backlight backlight_oiio sphere_field embree_spheres
+cmake --build --preset bench --target backlight backlight_oiio backlight_models sphere_field embree_spheres
 exec python3 scripts/bench.py "$@"

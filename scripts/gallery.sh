@@ -31,7 +31,7 @@ if [[ -z ${BACKLIGHT:-} ]]; then
   scripts/install.sh build charts
   if [[ ! -x $BACKLIGHT ]]; then
     cmake --preset release -DBACKLIGHT_TESTS=OFF
-    cmake --build --preset release --target backlight backlight_oiio
+    cmake --build --preset release --target backlight backlight_oiio backlight_models
   fi
 fi
 

@@ -19,7 +19,7 @@ kinds=("$@")
 
 scripts/install.sh build test
 cmake --preset asan >/dev/null
-cmake --build --preset asan --target mutation_campaign backlight_oiio
+cmake --build --preset asan --target mutation_campaign backlight_oiio backlight_models
 program=$(find build/asan -name mutation_campaign -type f -perm -u+x -print -quit)
 export BACKLIGHT_MODULE_PATH=$PWD/build/asan/lib/backlight
 seeds=tests/fuzz/corpus/seeds

@@ -25,7 +25,7 @@ scripts/install.sh build
 tests=OFF
 grep -qs '^BACKLIGHT_TESTS:BOOL=ON' build/release/CMakeCache.txt && tests=ON
 cmake --preset release -DBACKLIGHT_TESTS=$tests
-cmake --build --preset release --target backlight backlight_oiio
+cmake --build --preset release --target backlight backlight_oiio backlight_models
 
 build/release/bin/backlight render "$scene" "${output[@]}" "$@" --png
 echo "Rendered:"

@@ -31,6 +31,9 @@ class ImageModule {
 
   [[nodiscard]] Result<StoredImage> read(const std::filesystem::path& path) const;
 
+  /// Of the bytes of a PNG or JPEG file.
+  [[nodiscard]] Result<StoredImage> decode(const std::string& bytes) const;
+
   /// `samples`: width * height * channels unsigned integers of 8 or 16 bits, sRGB; channels 1, 3 or 4.
   [[nodiscard]] Result<std::string> encode_png(const void* samples, int width, int height, int channels,
                                                int sample_bits) const;
@@ -43,7 +46,9 @@ class ImageModule {
 
  private:
   ImageModule() = default;
+  [[nodiscard]] StoredImage taken(const BacklightOiioImage& image) const;
   BacklightOiioLoad load_ = nullptr;
+  BacklightOiioDecode decode_ = nullptr;
   BacklightOiioEncodePng encode_png_ = nullptr;
   BacklightOiioColourMap colour_map_ = nullptr;
   BacklightOiioBase64 base64_ = nullptr;

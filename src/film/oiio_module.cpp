@@ -72,7 +72,7 @@ constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
 constexpr std::int64_t most_pixels_of_byte = 4096;
 constexpr std::int64_t most_pixels_of_jpeg_byte = 512;
 
-void check_size(const char* path, const OIIO::ImageInput& input) {
+void check_size(std::int64_t bytes, const OIIO::ImageInput& input) {
   const OIIO::ImageSpec& spec = input.spec();
   const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
   const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels";
@@ -80,7 +80,6 @@ void check_size(const char* path, const OIIO::ImageInput& input) {
     throw std::runtime_error("it has " + size + ", and a texture has at most " + std::to_string(most_pixels) +
                              " pixels");
   }
-  const auto bytes = static_cast<std::int64_t>(OIIO::Filesystem::file_size(path));
   const bool jpeg = std::string_view(input.format_name()) == "jpeg";
   if (pixels / (jpeg ? most_pixels_of_jpeg_byte : most_pixels_of_byte) > bytes) {
     throw std::runtime_error("it says that it has " + size + ", and has " + std::to_string(bytes) + " bytes");
@@ -139,11 +138,8 @@ Memory<float> upright(OIIO::ImageSpec& spec, Memory<float> pixels, int channels)
   return pixels;
 }
 
-void load(const char* path, BacklightOiioImage& image) {
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);  // the colours as they are in the file
-  const auto input = OIIO::ImageInput::open(path, &config);
-  if (!input) {
+void take(OIIO::ImageInput* input, std::int64_t bytes, BacklightOiioImage& image) {
+  if (input == nullptr) {
     raise(OIIO::geterror(), "the file cannot be opened");
   }
   const auto [picture, first, channels] = find_colour(*input);
@@ -151,7 +147,7 @@ void load(const char* path, BacklightOiioImage& image) {
   if (spec.depth > 1 || spec.deep || spec.width <= 0 || spec.height <= 0) {
     throw std::runtime_error("not a flat picture");
   }
-  check_size(path, *input);
+  check_size(bytes, *input);
   if (spec.full_width != spec.width || spec.full_height != spec.height || spec.full_x != spec.x ||
       spec.full_y != spec.y) {
     throw std::runtime_error("only a part of the picture is in the file (its data window is a crop)");
@@ -177,6 +173,28 @@ void load(const char* path, BacklightOiioImage& image) {
   image.sample_bits = static_cast<int>(8 * spec.format.basesize());
   image.declared_linear = space == "Linear" || space == "linear" ? 1 : 0;
   image.pixels = rgb.release();
+}
+
+OIIO::ImageSpec plain_colours() {
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);  // the colours as they are in the file
+  return config;
+}
+
+void load(const char* path, BacklightOiioImage& image) {
+  const OIIO::ImageSpec config = plain_colours();
+  const auto input = OIIO::ImageInput::open(path, &config);
+  take(input.get(), static_cast<std::int64_t>(OIIO::Filesystem::file_size(path)), image);
+}
+
+void decode(const char* bytes, std::size_t size, BacklightOiioImage& image) {
+  OIIO::ImageSpec config = plain_colours();
+  const bool png = std::string_view(bytes, size).starts_with("\x89PNG");
+  OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes), size);  // which it does not change
+  void* proxy = static_cast<OIIO::Filesystem::IOProxy*>(&memory);
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  const auto input = OIIO::ImageInput::open(png ? "texture.png" : "texture.jpg", &config);
+  take(input.get(), static_cast<std::int64_t>(size), image);
 }
 
 void encode_png(const void* samples, int width, int height, int channels, int sample_bits,
@@ -223,6 +241,11 @@ void base64(const char* data, std::size_t size, BacklightOiioBytes& bytes) {
 
 int backlight_oiio_load_v1(const char* path, BacklightOiioImage* image, char* error, std::size_t error_size) {
   return guarded(error, error_size, [&] { load(path, *image); });
+}
+
+int backlight_oiio_decode_v1(const char* bytes, std::size_t size, BacklightOiioImage* image, char* error,
+                             std::size_t error_size) {
+  return guarded(error, error_size, [&] { decode(bytes, size, *image); });
 }
 
 int backlight_oiio_encode_png_v1(const void* samples, int width, int height, int channels, int sample_bits,

@@ -29,6 +29,11 @@ struct BacklightOiioBytes {
 BACKLIGHT_OIIO_EXPORT int backlight_oiio_load_v1(const char* path, BacklightOiioImage* image, char* error,
                                                  std::size_t error_size);
 
+/// The same of the bytes of a PNG or JPEG file.
+BACKLIGHT_OIIO_EXPORT int backlight_oiio_decode_v1(const char* bytes, std::size_t size,
+                                                   BacklightOiioImage* image, char* error,
+                                                   std::size_t error_size);
+
 /// `samples`: width * height * channels unsigned integers of 8 or 16 bits, sRGB; channels 1, 3 or 4.
 BACKLIGHT_OIIO_EXPORT int backlight_oiio_encode_png_v1(const void* samples, int width, int height,
                                                        int channels, int sample_bits, BacklightOiioBytes* png,
@@ -49,6 +54,7 @@ BACKLIGHT_OIIO_EXPORT void backlight_oiio_free_v1(void* memory);
 
 // As the loader casts what dlsym finds.
 using BacklightOiioLoad = decltype(&backlight_oiio_load_v1);
+using BacklightOiioDecode = decltype(&backlight_oiio_decode_v1);
 using BacklightOiioEncodePng = decltype(&backlight_oiio_encode_png_v1);
 using BacklightOiioColourMap = decltype(&backlight_oiio_colour_map_v1);
 using BacklightOiioBase64 = decltype(&backlight_oiio_base64_v1);

@@ -94,12 +94,15 @@ Vec3 Texture::sample(double u, double v, TextureEdge v_edge) const {
   return (1.0 - down.weight) * row(down.first) + down.weight * row(down.second);
 }
 
-Result<Texture> load_texture(const std::filesystem::path& path) {
+namespace {
+
+template <class Read>
+Result<Texture> texture_by(const Read& read_by) {
   const Result<ImageModule> module = ImageModule::load();
   if (!module.ok()) {
     return module.failure();
   }
-  Result<StoredImage> read = module.value().read(path);
+  Result<StoredImage> read = read_by(module.value());
   if (!read.ok()) {
     return read.failure();
   }
@@ -108,6 +111,16 @@ Result<Texture> load_texture(const std::filesystem::path& path) {
     linearise(image);
   }
   return Texture(image.width, image.height, std::move(image.rgb));
+}
+
+}  // namespace
+
+Result<Texture> load_texture(const std::filesystem::path& path) {
+  return texture_by([&](const ImageModule& module) { return module.read(path); });
+}
+
+Result<Texture> decode_texture(const std::string& bytes) {
+  return texture_by([&](const ImageModule& module) { return module.decode(bytes); });
 }
 
 }  // namespace backlight

@@ -68,6 +68,12 @@ std::optional<Expression> body_formula(Compilation& c, const TableView& table, c
       const Expression& f = shape.formula->expression();
       return whole ? f : within_box(f, low, high, closed);
     }
+    case ShapeKind::mesh:
+      table.error(
+          "shape", "a mesh has no formula, and cannot turn or swing in its frame",
+          "it can move with its frame: give a velocity or a [frame.NAME]; image_time instead of t puts "
+          "it somewhere else for each image");
+      return std::nullopt;
     case ShapeKind::csg:
       break;
   }

@@ -272,6 +272,7 @@ std::optional<Expression> formula_of(const Shape& shape) {
     case ShapeKind::disk:
     case ShapeKind::csg:
     case ShapeKind::implicit:
+    case ShapeKind::mesh:
       break;
   }
   return std::nullopt;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compile_formulas.h"
+#include "compile_mesh.h"
 
 namespace backlight {
 namespace {
@@ -51,7 +52,8 @@ class ShapeReader {
     if (!operation) {
       auto shape = single(table);
       if (!shape) return std::nullopt;
-      return CompiledShape{*std::move(shape), {}, {}};
+      if (shape->values[0] == 1.0 && shape->mesh) take_members(table);
+      return CompiledShape{*shape, members_, {}, centre_of(*shape)};
     }
     if (is_blend(table)) {
       auto shape = blend(table, material, 1);
@@ -71,6 +73,7 @@ class ShapeReader {
     const std::size_t errors = c_.values.diagnostics.error_count();
     const std::string name = table.text("shape");
     if (name == "implicit") return compile_implicit(c_, table);
+    if (name == "mesh") return compile_mesh(c_, table);
     const auto* form = std::find_if(closed_forms.begin(), closed_forms.end(),
                                     [&](const ClosedForm& candidate) { return candidate.name == name; });
     if (form == closed_forms.end()) return std::nullopt;
@@ -121,8 +124,18 @@ class ShapeReader {
       auto shape = operation ? blend(table, material, depth + 1) : single(table);
       if (!shape) return std::nullopt;
       tree.shape = *std::move(shape);
-      tree.member = operation ? 0 : member(material);
-      if (!is_solid(tree.shape)) {
+      if (tree.shape.mesh && tree.shape.values[0] == 1.0) {
+        tree.member = take_members(table);
+      } else {
+        tree.member = operation ? 0 : member(material);
+      }
+      tree.placement = tree.placement.around(Placement(centre_of(tree.shape)));
+      if (tree.shape.mesh && !tree.shape.mesh->is_closed()) {
+        table.error("shape",
+                    "the mesh is not closed, and cannot be part of a solid: not each of its edges is that of "
+                    "two triangles that go along it in opposite ways",
+                    "close its holes and make its normals consistent in the program that it comes from");
+      } else if (!is_solid(tree.shape)) {
         table.error("shape", problem(tree), "a cylinder of little height has an inside");
       }
     }
@@ -200,6 +213,16 @@ class ShapeReader {
     if (!formula) return std::nullopt;
     part.formula = *std::move(formula);
     return part;
+  }
+
+  static Vec3 centre_of(const Shape& shape) { return shape.mesh ? shape.mesh->centre() : Vec3{0.0}; }
+
+  // Adds the materials of a mesh's own file as members; returns the first one's number.
+  int take_members(const TableView& table) {
+    const int first = static_cast<int>(members_.size());
+    const auto own = materials_.of_model(table, *model_of(c_, table));
+    members_.insert(members_.end(), own.begin(), own.end());
+    return first;
   }
 
   int member(int material) {

@@ -14,6 +14,7 @@ struct CompiledShape {
   Shape shape;
   std::vector<int> member_materials;  ///< by SurfacePoint::member; empty: that of the object
   std::optional<SolidTree> solid;     ///< what `shape` was made of, if of several
+  Vec3 centre{0.0};                   ///< of a mesh: where its origin is in the object's coordinates
 };
 
 /// The shape of an object whose own material is `material`; nothing when something is wrong with it, which

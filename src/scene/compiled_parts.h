@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "backlight/model/model_file.h"
 #include "backlight/scene/scene.h"
 #include "time_dependence.h"
 
@@ -17,10 +18,12 @@ struct MaterialPlan {
   struct Place {
     const Node* written = nullptr;  ///< null: the grey of what names no material
     std::string_view name;
+    std::shared_ptr<const ModelMaterial> of_file{};  ///< of a mesh, which `written` names
   };
   std::vector<Place> places;  ///< by index into Scene::materials; empty unless there will be more images
   std::unordered_map<std::string, int> named;  ///< [material.NAME]
   std::unordered_map<const Node*, int> within_objects;
+  std::unordered_map<const Node*, std::vector<int>> of_meshes;
   int grey = -1;
   bool changes = false;   ///< whether any depends on the time
   bool complete = false;  ///< all objects have been asked for theirs

@@ -128,7 +128,7 @@ void add_shape_keys(std::vector<Key>& keys, std::string_view centre, std::string
                   "Which surface; its own keys are in the tables below.",
                   {},
                   {"sphere", "box", "cylinder", "cone", "torus", "disk", "plane", "quadric", "implicit",
-                   "union", "intersection", "difference"}});
+                   "mesh", "union", "intersection", "difference"}});
   keys.push_back(of_motion(numbers("position", 3, std::vector<double>{0, 0, 0}, "length", centre)));
   keys.push_back(of_motion(numbers("rotate", 3, std::vector<double>{0, 0, 0}, "degrees",
                                    "Turned about the x axis, then about y, then about z (fixed axes).")));
@@ -155,8 +155,10 @@ KeyTable object() {
       {text("name",
             "For error messages, `-D object.NAME.key=value` and the list that `backlight check` gives.")},
       "shape"};
-  add_shape_keys(table.keys, "Where its centre is.",
-                 "The name of a `[material.NAME]`, or its keys; without it, a grey of reflectance 0.8.");
+  add_shape_keys(
+      table.keys, "Where its centre is.",
+      "The name of a `[material.NAME]`, or its keys; without it, a grey of reflectance 0.8. Of a mesh, "
+      "`\"file\"`: those of its file.");
   table.keys.push_back(boolean("casts_shadow", true,
                                "Whether it is in the way of light, its own surface's included. False: it "
                                "is seen and lit like any other, and hides no lamp: the bulb about one."));
@@ -287,6 +289,23 @@ std::vector<KeyTable> shapes() {
         {},
         Clock::own},
        unresolved()});
+  shape("object.mesh",
+        "Triangles from a file, in the file's own coordinates. `material = \"file\"` takes the materials of "
+        "the "
+        "file: colours, textures and emission. A ray never slips through between two triangles. Triangles "
+        "without "
+        "an area are left out. As a part of a solid it has to be closed. Texture: its own; 0 where it has "
+        "none.",
+        {{"file",
+          {{ValueKind::path}},
+          Required{},
+          "",
+          "Wavefront OBJ (.obj, in double precision), PLY (.ply), STL (.stl) or glTF 2 (.gltf, .glb)."},
+         boolean(
+             "smooth", true,
+             "Lit as a curved surface, by normals that go over from corner to corner: those of the file or, "
+             "where it has none, those of its faces averaged where they meet at less than 40 degrees. False: "
+             "flat triangles. What is hit, and shadows, are the triangles' either way.")});
   const auto solid = [&](std::string_view name, std::string_view meaning, std::vector<Key> more) {
     std::vector<Key> keys{
         structured("part", {{ValueKind::tables, 0, "object.part"}}, "What it is made of, at least one.")};

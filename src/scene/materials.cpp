@@ -223,13 +223,14 @@ int Materials::add(const MaterialPlan::Place& place) {
   read(place);
   if (parts_.kept) {
     plan_.places.push_back(place);
-    plan_.changes = plan_.changes || (place.written != nullptr &&
+    plan_.changes = plan_.changes || (place.written != nullptr && !place.of_file &&
                                       parts_.dependence.changes(*place.written, *find_table("material")));
   }
   return static_cast<int>(materials_.size()) - 1;
 }
 
 void Materials::read(const MaterialPlan::Place& place) {
+  if (place.of_file) return read_of_file(place);
   const TableView table(values_, place.written, *find_table("material"));
   materials_.emplace_back();
   Material& material = materials_.back();

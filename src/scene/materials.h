@@ -54,6 +54,8 @@ class Materials {
 
   /// The index of an object's material, a grey of 0.8 by default.
   int of(const TableView& object);
+  /// Those of the file of an object's mesh, by the mesh's members.
+  std::vector<int> of_model(const TableView& object, const LoadedModel& model);
 
   /// To be called after the last material: all of them, with the spectra of those made from RGB.
   SharedVector<Material> finish(CompileCounts& counts);
@@ -70,6 +72,7 @@ class Materials {
 
   int add(const MaterialPlan::Place& place);
   void read(const MaterialPlan::Place& place);
+  void read_of_file(const MaterialPlan::Place& place);
   void make_spectra();
   void read_reflectance(const TableView& table, Material& material, MaterialInTime& in_time);
   static std::shared_ptr<Checker> read_checker(const TableView& table);

@@ -142,6 +142,8 @@ std::string plural_of(const RootSearch& search) {
       return several ? "tori" : "torus";
     case ShapeKind::box:
       return several ? "boxes" : "box";
+    case ShapeKind::mesh:
+      return several ? "meshes" : "mesh";
     default:
       return several ? shape + 's' : shape;
   }

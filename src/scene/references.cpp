@@ -112,6 +112,9 @@ class References {
     const std::string name = *reference->node.text();
     if (key == "material") used_materials_.insert(name);
     if (key != "material") used_frames_.insert(name);
+    // A mesh may take the materials of its own file.
+    const Entry* shape = key == "material" && name == "file" ? find(table, "shape") : nullptr;
+    if (shape != nullptr && shape->node.text() != nullptr && *shape->node.text() == "mesh") return;
     if ((key != "material" && name == "world") || definitions.count(name) > 0) return;
     const std::string kind = key == "material" ? "material" : "frame";
     std::vector<std::string> names;

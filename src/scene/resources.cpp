@@ -166,6 +166,61 @@ Result<SpectrumTable> ResourceCache::spectrum(const std::filesystem::path& path)
   return loaded;
 }
 
+Result<std::shared_ptr<const LoadedModel>> ResourceCache::model(const std::filesystem::path& path,
+                                                                bool smooth) {
+  const std::pair key{path, smooth};
+  if (const auto known = models_.find(key); known != models_.end()) return known->second;
+  used_.push_back({path, {}});
+  auto read = read_model(path, smooth);
+  if (!read.ok()) return read.failure();
+  Model model = std::move(read).value();
+  for (const std::filesystem::path& file : model.files) used_.push_back({file, {}});
+  if (model.mesh.triangles.empty()) return Failure{"cannot use " + path.string() + ": it has no triangles"};
+  if (smooth && model.mesh.normals.empty()) add_smooth_normals(model.mesh, crease_angle);
+  auto loaded = std::make_shared<LoadedModel>();
+  loaded->mesh = std::make_shared<const Mesh>(std::move(model.mesh));
+  for (ModelMaterial& its : model.materials)
+    loaded->materials.push_back(std::make_shared<const ModelMaterial>(std::move(its)));
+  loaded->missing = std::move(model.missing);
+  loaded->left_out = model.left_out;
+  return models_[key] = loaded;
+}
+
+namespace {
+
+Texture times(const Texture& texture, const LinearRgb& color) {
+  std::vector<float> rgb;
+  rgb.reserve(3 * static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(texture.height()));
+  for (int j = 0; j < texture.height(); ++j) {
+    for (int i = 0; i < texture.width(); ++i) {
+      const Vec3 texel = texture.texel(i, j) * color;
+      for (int k = 0; k < 3; ++k) rgb.push_back(static_cast<float>(texel[k]));
+    }
+  }
+  return {texture.width(), texture.height(), std::move(rgb)};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const Texture>> ResourceCache::texture_of(const ModelMaterial& material,
+                                                                 const LinearRgb& color) {
+  const std::tuple key{material.texture, material.embedded_texture, Rgb{color.r, color.g, color.b}};
+  if (const auto known = textures_of_models_.find(key); known != textures_of_models_.end())
+    return known->second;
+  std::shared_ptr<const Texture> plain;
+  if (!material.texture.empty()) {
+    auto loaded = texture(material.texture.lexically_normal());
+    if (!loaded.ok()) return loaded.failure();
+    plain = loaded.value();
+  } else {
+    auto decoded = decode_texture(material.embedded_texture);
+    if (!decoded.ok()) return decoded.failure();
+    plain = std::make_shared<const Texture>(std::move(decoded).value());
+  }
+  const bool white = color == LinearRgb{1.0};
+  return textures_of_models_[key] = white ? plain : std::make_shared<const Texture>(times(*plain, color));
+}
+
 Result<std::vector<std::string>> ResourceCache::digests() {
   std::vector<std::string> digests;
   for (UsedFile& file : used_) {

@@ -247,6 +247,7 @@ std::vector<HullBall> hull_of(const Shape& shape) {
     case ShapeKind::plane:
     case ShapeKind::quadric:
     case ShapeKind::csg:
+    case ShapeKind::mesh:
       break;
   }
   SurfaceSet one;

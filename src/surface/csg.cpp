@@ -44,7 +44,9 @@ void first_crossings_of(const Shape& shape, const LocalLines& lines, double lamb
     const Sweep::Event& event = first[i];
     results[i] = {};
     if (!(event.t < infinite)) continue;
-    const int code = event.leaf * codes_of_leaf + (event.turned ? is_turned : 0) + event.crossing.part;
+    const Solid::Leaf& leaf = shape.solid->leaves()[static_cast<std::size_t>(event.leaf)];
+    const int part = methods(leaf.surface.shape).has_many_parts ? 0 : event.crossing.part;
+    const int code = event.leaf * codes_of_leaf + (event.turned ? is_turned : 0) + part;
     results[i] = {event.t, event.crossing.unresolved, code};
   }
 }
@@ -56,9 +58,24 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
   for (std::size_t i = 0; i < lines.count; ++i) results[i] = lines.lambda(i, first[i].t) < lambda_max;
 }
 
+Crossing crossing_of_walk(const PlacedSurface& leaf, const LocalLine& line, const Crossing& near) {
+  SolidWalk walk;
+  methods(leaf.shape).begin_walk(leaf.shape, line, -infinite, walk);
+  Crossing nearest = near;
+  double least = infinite;
+  for (SolidWalk::Event event; walk.next(event);) {
+    const double off = std::abs(event.crossing.t - near.t);
+    if (!(off < least)) continue;
+    least = off;
+    nearest = event.crossing;
+  }
+  return nearest;
+}
+
 /// The crossing of a leaf that is at t along its line or, as rounding goes, next to it. That of a formula is
 /// put onto its surface by surface_point anyhow.
 Crossing crossing_at(const PlacedSurface& leaf, const LocalLine& line, const Crossing& near) {
+  if (methods(leaf.shape).has_many_parts) return crossing_of_walk(leaf, line, near);
   if (methods(leaf.shape).begin_walk != nullptr) return near;
   const Crossings found = crossings(leaf.shape, line, -infinite, Wanted::all);
   const auto* const nearest = std::min_element(
@@ -83,6 +100,10 @@ struct OnLeaf {
 
 void find_points(const PlacedSurface& leaf, TextureCoordinates wanted, OnLeaf& on) {
   const std::size_t count = on.lines.count;
+  if (methods(leaf.shape).has_many_parts) {
+    for (std::size_t k = 0; k < count; ++k)
+      on.crossings[k] = crossing_at(leaf, on.lines.line(k), on.crossings[k]);
+  }
   if (const auto many = methods(leaf.shape).points; many != nullptr) {
     return many(leaf.shape, on.lines, {on.crossings, count}, wanted, {on.points, count});
   }
@@ -99,10 +120,12 @@ LocalPoint of_whole(const Solid::Leaf& leaf, const LocalPoint& of_leaf, bool tur
   LocalPoint result;
   result.position = point.position;
   result.gradient = leaf.subtracted != turned ? -point.normal : point.normal;
+  if (is_smooth(leaf.surface.shape))
+    result.shading = leaf.subtracted != turned ? -point.shading_normal : point.shading_normal;
   result.u = point.u;
   result.v = point.v;
   result.error = point.error_bound;
-  result.member = leaf.surface.shape.blend ? point.member : leaf.member;
+  result.member = leaf.surface.shape.blend ? point.member : leaf.member + point.member;
   result.moves = point.moves;
   result.velocity = point.velocity;
   result.own_time = point.own_time;

@@ -9,9 +9,9 @@ namespace backlight {
 namespace {
 
 // In the order of ShapeKind.
-constexpr std::array<const ShapeMethods*, 10> table{
-    &sphere_methods, &box_methods,   &cylinder_methods, &cone_methods, &torus_methods,
-    &disk_methods,   &plane_methods, &quadric_methods,  &csg_methods,  &implicit_methods};
+constexpr std::array<const ShapeMethods*, 11> table{
+    &sphere_methods, &box_methods,     &cylinder_methods, &cone_methods,     &torus_methods, &disk_methods,
+    &plane_methods,  &quadric_methods, &csg_methods,      &implicit_methods, &mesh_methods};
 
 }  // namespace
 
@@ -93,6 +93,8 @@ std::string_view name(RootFinder finder) {
       return "polynomial";
     case RootFinder::affine:
       return "reduced affine";
+    case RootFinder::triangles:
+      return "triangles";
     case RootFinder::solid:
       break;
   }
@@ -102,7 +104,7 @@ std::string_view name(RootFinder finder) {
 std::string root_finding(const Shape& shape) {
   std::string words{name(root_finder(shape))};
   if (!shape.solid) return words;
-  std::array<bool, 5> named{};
+  std::array<bool, 6> named{};
   const char* before = " of ";
   for (const Solid::Leaf& leaf : shape.solid->leaves()) {
     const RootFinder finder = root_finder(leaf.surface.shape);
@@ -118,6 +120,11 @@ std::string root_finding(const Shape& shape) {
 
 std::string_view name(ShapeKind kind) {
   return kind == ShapeKind::csg ? "solid" : methods(kind).name;
+}
+
+bool is_smooth(const Shape& shape) {
+  const auto smooth = methods(shape).is_smooth;
+  return smooth != nullptr && smooth(shape);
 }
 
 bool is_solid(const Shape& shape) {

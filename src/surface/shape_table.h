@@ -50,6 +50,7 @@ struct FirstOnLine {
 struct LocalPoint {
   Vec3 position{0.0};
   Vec3 gradient{0.0, 1.0, 0.0};
+  Vec3 shading{0.0};  ///< as the gradient, of the surface that light is reckoned by; zero: the same
   double u = 0.0;
   double v = 0.0;
   double error = 0.0;    ///< of the position, beyond rounding of the coordinates
@@ -110,6 +111,10 @@ struct ShapeMethods {
                  std::span<bool>) = nullptr;
   /// Fills u and v of a point of a face, where only its place is known.
   void (*texture)(const Shape&, int part, LocalPoint&) = nullptr;
+  /// Whether there are more faces than a solid's own crossings can name: they are found again.
+  bool has_many_parts = false;
+  /// Whether the normal that light is reckoned by may be another than the surface's own; null: it never is.
+  bool (*is_smooth)(const Shape&) = nullptr;
   /// Which face a place on the surface is on, to within rounding; null: there is but one.
   int (*part_at)(const Shape&, const Vec3&) = nullptr;
 };
@@ -129,7 +134,7 @@ Crossings crossings_of_one(const Shape& shape, const LocalLine& line, double lam
 LocalPoint point_of_one(const Shape& shape, const LocalLine& line, const Crossing& crossing);
 
 extern const ShapeMethods sphere_methods, box_methods, cylinder_methods, cone_methods, torus_methods,
-    disk_methods, plane_methods, quadric_methods, csg_methods, implicit_methods;
+    disk_methods, plane_methods, quadric_methods, csg_methods, implicit_methods, mesh_methods;
 
 // Words and numbers that several shapes share.
 

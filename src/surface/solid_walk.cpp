@@ -5,17 +5,22 @@
 namespace backlight {
 
 void SolidWalk::begin(const Crossings& all) {
+  begin(std::span(all.list, static_cast<std::size_t>(all.count)));
+  inside_before_ = all.inside_before;
+}
+
+void SolidWalk::begin(std::span<const Crossing> all) {
   asks_ = Asks::nothing;
   roots_.reset();
-  inside_before_ = all.inside_before;
+  inside_before_ = false;
   next_ = 0;
   events_.clear();
-  for (int i = 0; i < all.count; ++i) events_.push_back({all.list[i], Kind::crossing});
+  for (const Crossing& crossing : all) events_.push_back({crossing, Kind::crossing});
 }
 
 void SolidWalk::begin(const ImplicitFormula& f, const FormulaLine& line, const Stretch& bounds, double from,
                       bool keeps_touches) {
-  begin({});
+  begin(Crossings{});
   inside_ = false;
   keeps_touches_ = keeps_touches;
   reached_ = -infinite;

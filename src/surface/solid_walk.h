@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "convex.h"
@@ -31,6 +32,8 @@ class SolidWalk {
 
   /// All crossings of a shape that has few.
   void begin(const Crossings& all);
+  /// All crossings of a shape that no line comes from inside, in their order.
+  void begin(std::span<const Crossing> all);
 
   /// Those of f = 0 inside its bounds, which close it where they cut the inside. Crossings before `from` may
   /// be left out, when the sign of f is certain there. `keeps_touches`: unresolved roots at which f does not

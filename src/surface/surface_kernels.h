@@ -2,6 +2,7 @@
 #pragma once
 
 #include "local_lines.h"
+#include "mesh_walk.h"
 #include "polynomial_lanes.h"
 #include "torus_lanes.h"
 #include "walk.h"
@@ -11,6 +12,7 @@ namespace backlight {
 struct SurfaceKernels {
   void (*local_lines)(const LaneSurface&, LocalLines&);
   void (*torus_roots)(const TorusQuestion&, const LocalLines&, double* roots);
+  void (*mesh_crossings)(const MeshQuestion&, const LocalLines&, double* t, double* triangle);
   PolynomialKernels (*polynomials)(int degree);
   decltype(&Walk<1>::nearest) nearest;
   decltype(&Walk<1>::blocked) blocked;
@@ -22,6 +24,7 @@ SurfaceKernels surface_kernels_of() {
   using W = Walk<V::width>;
   return {.local_lines = bring_lines<V>,
           .torus_roots = TorusLanes<V>::run,
+          .mesh_crossings = MeshWalk<V::width>::run,
           .polynomials = polynomial_kernels_of<V>,
           .nearest = W::nearest,
           .blocked = W::blocked,

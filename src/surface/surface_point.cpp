@@ -34,8 +34,15 @@ LocalPoint with_motion(const PlacedSurface& surface, const MatterMotion& motion,
 SurfacePoint placed_point(const PlacedSurface& surface, const LocalPoint& point) {
   const LanePoint<Lanes<1>> placed = in_rest_frame<Lanes<1>>(
       surface.lanes, {one_lane(point.position), one_lane(point.gradient), point.error}, point.is_unit);
+  Vec3 shading = vec3(placed.normal);
+  if (point.shading != Vec3{0.0}) {
+    const LaneVec3<Lanes<1>> by_rest =
+        surface.lanes.local_from_rest.transposed_times(one_lane(point.shading));
+    shading = vec3((Lanes<1>(1.0) / length(by_rest)) * by_rest);
+  }
   return {.position = vec3(placed.position),
           .normal = vec3(placed.normal),
+          .shading_normal = shading,
           .u = point.u,
           .v = point.v,
           .member = point.member,

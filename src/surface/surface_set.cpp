@@ -89,6 +89,13 @@ bool SurfaceSet::is_flat(int surface) const {
   return methods(shape(surface)).is_flat;
 }
 
+bool SurfaceSet::is_smooth(int surface) const {
+  const Shape& its = shape(surface);
+  if (!its.solid) return backlight::is_smooth(its);
+  return std::ranges::any_of(
+      its.solid->leaves(), [](const Solid::Leaf& leaf) { return backlight::is_smooth(leaf.surface.shape); });
+}
+
 bool SurfaceSet::moves(int surface) const {
   const Shape& its = shape(surface);
   if (its.motion) return true;

@@ -88,6 +88,7 @@ void put(const SurfacePoint& point, int ray, SheetPoints& out) {
   for (int k = 0; k < 3; ++k) {
     out.position[k][ray] = point.position[k];
     out.normal[k][ray] = point.normal[k];
+    out.shading_normal[k][ray] = point.shading_normal[k];
   }
   out.error_bound[ray] = point.error_bound;
   out.u[ray] = point.u;

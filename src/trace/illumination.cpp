@@ -136,6 +136,7 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit) {
   point.proper_time = point.time;
   if (surfaces.moves(hit.hit.surface)) go_along(ray, light_delay, point);
   const bool outside = glm::dot(point.normal, point.to_camera) >= 0.0;
+  if (surfaces.is_smooth(hit.hit.surface)) point.normal = point.surface.shading_normal;
   point.side = outside ? point.surface.normal : -point.surface.normal;
   if (!outside) point.normal = -point.normal;
   return point;

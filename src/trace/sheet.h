@@ -137,6 +137,7 @@ struct PointSheet {
   int run_count = 0;
   /// Whether their matter may not be at rest in their frame: then its celerity there, and γ.
   bool moves = false;
+  bool smooth = false;  ///< whether light is reckoned by points.shading_normal
   alignas(64) double celerity[3][sheet_size];
   alignas(64) double gamma[sheet_size];
   RaySheet rays;       ///< the camera's, in their frame

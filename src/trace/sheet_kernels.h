@@ -427,6 +427,7 @@ struct KernelsOf {
       if (p.moves) go_along(p, i, normal, to_camera, doppler);
       const Mask outside = dot(normal, to_camera) >= V(0.0);
       const V3 seen = select(outside, surface, -surface);
+      if (p.smooth) normal = load3<V>(p.points.shading_normal, i);
       const V time = V(p.rays.start_time[0]) + V::load(p.hits->lambda + i) * V::load(p.rays.time_rate + i);
       store3(select(outside, normal, -normal), p.points.normal, i);
       store3(to_camera, p.to_camera, i);

@@ -129,6 +129,7 @@ bool SheetShader::resolve() {
   PointSheet& p = work_.points;
   const Scene& scene = tracer_.scene();
   const SurfaceSet& surfaces = sheets_.surfaces(*entry_);
+  p.smooth = false;
   bool is_one = true;  // material, or else members of solids may have several
   sheets_.kernels().in_frame(sheets_.eye(eye_).frames[frame()], p);
   for (int r = 0; r < p.run_count; ++r) {
@@ -140,6 +141,7 @@ bool SheetShader::resolve() {
     const std::vector<int>& members = object.member_materials;
     const bool textured = !members.empty() || own.texture || own.checker;
     surfaces.points(p.rays, surface, first, last, *p.hits, textured, p.points);
+    p.smooth = p.smooth || surfaces.is_smooth(surface);
     std::fill_n(p.own + first, count, surfaces.is_convex(surface) ? number : -1.0);
     std::fill_n(p.own_inside + first, count, surfaces.is_flat(surface) ? number : -1.0);
     std::fill_n(p.material + first, count, object.material);
@@ -148,11 +150,24 @@ bool SheetShader::resolve() {
       p.material[i] = members[static_cast<std::size_t>(p.points.member[i])];
     }
   }
+  if (p.smooth) fill_shading_normals(surfaces);
   p.moves = sheets_.moves(sheets_.numbered(p.runs[0].surface).group);
   too_fast_ = p.moves && !find_celerities();
   sheets_.kernels().face(p);
   return is_one ||
          std::all_of(p.material, p.material + p.count, [&](int its) { return its == p.material[0]; });
+}
+
+// Of surfaces that have no other than their own.
+void SheetShader::fill_shading_normals(const SurfaceSet& surfaces) {
+  PointSheet& p = work_.points;
+  for (int r = 0; r < p.run_count; ++r) {
+    if (surfaces.is_smooth(p.runs[r].surface - entry_->first_number)) continue;
+    const int last = p.runs[r].last < p.count ? p.runs[r].last : p.padded;
+    for (int k = 0; k < 3; ++k)
+      std::copy(p.points.normal[k] + p.runs[r].first, p.points.normal[k] + last,
+                p.points.shading_normal[k] + p.runs[r].first);
+  }
 }
 
 // As boost_by() has them; false if lanes cannot go along with any.

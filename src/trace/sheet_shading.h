@@ -103,6 +103,7 @@ class SheetShader {
 
  private:
   [[nodiscard]] const LaneLamp& lane_lamp(std::size_t light, int frame) const;
+  void fill_shading_normals(const SurfaceSet& surfaces);
   bool find_celerities();
   void fill_strength(const Light& light);
   void fill_diffuse(std::size_t light, int material, LaneReflection& reflection);

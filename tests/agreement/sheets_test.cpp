@@ -7,6 +7,7 @@
 #include <random>
 
 #include "backlight/base/lane_power.h"
+#include "meshes.h"
 #include "rendering.h"
 
 namespace backlight::test {
@@ -495,6 +496,42 @@ TEST(LanePower, IsTheSameForAnyWidth) {
     if (exact <= 1e-300) continue;
     EXPECT_LE(std::abs(one / exact - 1.0), bound + 0x1p-53) << base << ' ' << exponent;
   }
+}
+
+/// A mesh file of the test's own: a path for a scene.
+std::string mesh_file(const std::string& name, const MeshData& mesh) {
+  const std::string path = ::testing::TempDir() + name;
+  write_obj(path, mesh);
+  return path;
+}
+
+TEST(Sheets, OfMeshesAreTheLaw) {
+  const std::string ball = mesh_file("sheets_ball.obj", icosphere(3, 1.0));
+  const std::string ring = mesh_file("sheets_ring.obj", torus_mesh(1.0, 0.3, 40, 20));
+  const std::string cube = mesh_file("sheets_cube.obj", box_mesh(Vec3{1.0}));
+  const auto mesh = [](const std::string& file, const std::string& more) {
+    return "[[object]]\nshape = \"mesh\"\nfile = \"" + file + "\"\n" + more + "\n";
+  };
+  for (const char* beta : {"[0, 0, 0]", "[0.6, 0.3, -0.2]"}) {
+    Field field;
+    field.spheres = 3;
+    field.more =
+        mesh(ball, "position = [-1.5, 0, 0]\nbeta = " + std::string(beta)) +
+        mesh(ball,
+             "position = [1.5, 0.2, 0]\nsmooth = false\nrotate = [20, 30, 40]\nscale = [1, 0.5, -0.8]") +
+        mesh(ring,
+             "position = [0, 1, 1]\nrotate = [60, 0, 0]\nrepeat = { count = [2, 1, 2], step = [1, 1, 3] }") +
+        "[[object]]\nshape = \"difference\"\nposition = [0, 0, -3]\n[[object.part]]\nshape = \"mesh\"\nfile "
+        "= \"" +
+        cube + "\"\n[[object.part]]\nshape = \"sphere\"\nradius = 0.6\nmaterial = { color = [1, 0, 0] }\n";
+    expect_the_law(scene_of(field));
+  }
+  // As fast as the extended arithmetic is for.
+  Field fast;
+  fast.spheres = 0;
+  fast.camera = "gamma = 1e6\nalong = [0, 0, 1]\n";
+  fast.more = mesh(ball, "position = [0, 0, 3e6]");
+  expect_the_law(scene_of(fast));
 }
 
 }  // namespace

@@ -17,10 +17,12 @@ struct Library {
   bool in_one_file;
 };
 
-constexpr std::array<Library, 7> libraries{{{"GLM", "glm/", false},
+constexpr std::array<Library, 9> libraries{{{"GLM", "glm/", false},
                                             {"OpenEXR", "OpenEXR/", false},
                                             {"OpenEXR", "Imath/", false},
                                             {"OpenImageIO", "OpenImageIO/", true},
+                                            {"assimp", "assimp/", true},
+                                            {"tinyobjloader", "tiny_obj_loader.h", true},
                                             {"toml++", "toml++/", false},
                                             {"CLI11", "CLI/", true},
                                             {"nlohmann", "nlohmann/", true}}};

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "backlight/base/result.h"
@@ -48,5 +49,8 @@ class Texture {
 /// floats are taken as linear Rec.709. Grey is repeated, alpha ignored (colours are taken as stored). Fails
 /// with path and reason on a file that is missing, unreadable, damaged or cut short.
 Result<Texture> load_texture(const std::filesystem::path& path);
+
+/// The same of the bytes of such a file, PNG or JPEG.
+Result<Texture> decode_texture(const std::string& bytes);
 
 }  // namespace backlight

@@ -5,14 +5,17 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "backlight/base/result.h"
 #include "backlight/colour/upsampling.h"
 #include "backlight/film/texture.h"
+#include "backlight/model/model_file.h"
 #include "backlight/surface/implicit_surface.h"
 
 namespace backlight {
@@ -38,12 +41,27 @@ Result<std::vector<CatalogueStar>> read_stars(const std::filesystem::path& path)
 /// Reads a spectrum: CSV of wavelength in nm and value, with or without a header line.
 Result<SpectrumTable> read_spectrum(const std::filesystem::path& path);
 
+/// A model's file, ready to be traced.
+struct LoadedModel {
+  std::shared_ptr<const Mesh> mesh;
+  std::vector<std::shared_ptr<const ModelMaterial>> materials;  ///< by the mesh's members
+  std::filesystem::path missing;                                ///< as of Model
+  std::size_t left_out = 0;
+};
+
+/// Faces that meet at more than this (radians) have an edge, and no common normals, in a model that has none.
+inline constexpr double crease_angle = 40.0 * std::numbers::pi / 180.0;
+
 /// Keeps what was read, so that the images of an animation share it. Not for several threads at once.
 class ResourceCache {
  public:
   Result<std::shared_ptr<const Texture>> texture(const std::filesystem::path& path);
   Result<std::shared_ptr<const std::vector<CatalogueStar>>> stars(const std::filesystem::path& path);
   Result<SpectrumTable> spectrum(const std::filesystem::path& path);
+  /// `smooth`: with the normals of the file or, where it has none, those of its faces averaged.
+  Result<std::shared_ptr<const LoadedModel>> model(const std::filesystem::path& path, bool smooth);
+  /// The texture of a material of a model, times a linear colour.
+  Result<std::shared_ptr<const Texture>> texture_of(const ModelMaterial& material, const LinearRgb& color);
   /// fit_sigmoid(rgb), which takes a while, once for each colour.
   SigmoidReflectance sigmoid(const LinearRgb& rgb);
   /// prove_bounds(formula), which takes up to half a second, once for each formula: the same operations on
@@ -66,6 +84,9 @@ class ResourceCache {
   std::map<std::filesystem::path, std::shared_ptr<const Texture>> textures_;
   std::map<std::filesystem::path, std::shared_ptr<const std::vector<CatalogueStar>>> stars_;
   std::map<std::filesystem::path, SpectrumTable> spectra_;
+  std::map<std::pair<std::filesystem::path, bool>, std::shared_ptr<const LoadedModel>> models_;
+  std::map<std::tuple<std::filesystem::path, std::string, Rgb>, std::shared_ptr<const Texture>>
+      textures_of_models_;
   std::map<Rgb, SigmoidReflectance> sigmoids_;
   std::map<std::vector<std::uint64_t>, std::optional<FormulaBounds>> bounds_;  // by the formula's tape
   std::map<std::vector<std::uint64_t>, RootFinder> finders_;  // by the formula's tape, then the bounds

@@ -48,6 +48,7 @@ struct SheetHits {
 struct SheetPoints {
   alignas(64) double position[3][sheet_size];
   alignas(64) double normal[3][sheet_size];
+  alignas(64) double shading_normal[3][sheet_size];  ///< not set unless SurfaceSet::is_smooth()
   alignas(64) double error_bound[sheet_size];
   alignas(64) double u[sheet_size];
   alignas(64) double v[sheet_size];

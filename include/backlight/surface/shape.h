@@ -15,6 +15,7 @@ namespace backlight {
 class ImplicitFormula;
 struct ImplicitBlend;
 class MatterMotion;
+class Mesh;
 class Solid;
 
 /// The kinds of surfaces. What each can do is in one table, src/surface/shape_table.h.
@@ -28,7 +29,8 @@ enum class ShapeKind : std::uint8_t {
   plane,
   quadric,
   csg,
-  implicit
+  implicit,
+  mesh
 };
 
 /// When a surface is there: where the formula is positive, of its matter's own time in seconds.
@@ -49,6 +51,7 @@ struct Shape {
   std::shared_ptr<const ImplicitBlend> blend{};  ///< implicit: what was blended (surface/implicit_surface.h)
   std::shared_ptr<const MatterMotion> motion{};  ///< of its matter; null: at rest (surface/matter_motion.h)
   std::shared_ptr<const Presence> presence{};    ///< null: it is always there
+  std::shared_ptr<const Mesh> mesh{};            ///< mesh (surface/mesh.h)
 };
 
 /// |x| = radius. Texture: u = 1/2 + atan2(x, z)/2pi, v = polar angle from +y over pi. So the +z axis pierces
@@ -91,11 +94,19 @@ Shape quadric(const std::array<double, 10>& coefficients);
 /// such closing faces, as of a box. Texture: longitude and latitude about the y axis, as the sphere's.
 Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high);
 
+/// Triangles, open or closed, in coordinates relative to the mesh's centre. Parts: the triangles. Texture:
+/// the mesh's own, interpolated; 0 if it has none. Encloses something where it is closed. `has_members`:
+/// whether the points' members are the mesh's own, or all 0.
+Shape mesh(std::shared_ptr<const Mesh> mesh, bool has_members = false);
+
+/// Whether light is reckoned by normals that are interpolated, and not the surface's own (SurfacePoint).
+bool is_smooth(const Shape& shape);
+
 /// Whether the surface fits into no sphere: a plane, and a quadric that is not surely an ellipsoid.
 bool is_infinite(const Shape& shape);
 
-/// Whether the shape has an inside. Of the closed forms all but the disk: a plane is the half-space y < 0, a
-/// quadric is solid where its left side is negative.
+/// Whether the shape has an inside: a mesh where it is closed; of the closed forms all but the disk: a plane
+/// is the half-space y < 0, a quadric is solid where its left side is negative.
 bool is_solid(const Shape& shape);
 
 /// How the crossings of a line with a surface are found (docs/implicit.md).
@@ -105,13 +116,14 @@ enum class RootFinder : std::uint8_t {
   interval,     ///< a formula: bounds on it and on its slope
   polynomial,   ///< a formula that is a polynomial: its coefficients along the ray, Bernstein's form
   affine,       ///< a formula: reduced affine forms, bounds on the slope where a root is
+  triangles,    ///< of a mesh, by a watertight test
   solid         ///< the events of the parts of a solid, each found in its own way, in their order
 };
 
 /// Which of them the shape's camera and shadow rays take.
 RootFinder root_finder(const Shape& shape);
 
-/// "closed form", "quartic", "interval + derivative", "polynomial", "reduced affine", "CSG".
+/// "closed form", "quartic", "interval + derivative", "polynomial", "reduced affine", "triangles", "CSG".
 std::string_view name(RootFinder finder);
 
 /// The name of the shape's root finder; of a solid those of its parts too, each once: "CSG of closed form and

@@ -36,7 +36,9 @@ struct Hit {
 struct SurfacePoint {
   Vec3 position{0.0};  ///< on the surface to within error_bound
   Vec3 normal{0.0};    ///< unit, geometric, outward; turn it towards the viewer if need be
-  double u = 0.0;      ///< texture coordinates, as documented with each shape
+  /// Unit, by which light is reckoned: the same, unless is_smooth() of the surface.
+  Vec3 shading_normal{0.0};
+  double u = 0.0;  ///< texture coordinates, as documented with each shape
   double v = 0.0;
   int member = 0;  ///< of a solid made of several: the member that was hit (surface/solid.h); else 0
   /// No farther than this is `position` from the true surface: 16 machine epsilons of the coordinates that
@@ -102,6 +104,9 @@ class SurfaceSet {
   [[nodiscard]] bool is_convex(int surface) const;
   /// ...and on its inside neither.
   [[nodiscard]] bool is_flat(int surface) const;
+
+  /// Whether SurfacePoint::shading_normal may be another than the normal.
+  [[nodiscard]] bool is_smooth(int surface) const;
 
   /// Whether matter of it may not be at rest in the frame: SurfacePoint::moves of its points.
   [[nodiscard]] bool moves(int surface) const;

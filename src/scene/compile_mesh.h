@@ -1,0 +1,21 @@
+// Meshes from files.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "compile_parts.h"
+
+namespace backlight {
+
+/// The file of an object whose shape is a mesh; null when it cannot be read, which is then reported.
+std::shared_ptr<const LoadedModel> model_of(Compilation& c, const TableView& table);
+
+/// Its shape, relative to the mesh's centre; nothing when something is wrong with it, which has been
+/// reported.
+std::optional<Shape> compile_mesh(Compilation& c, const TableView& table);
+
+/// Whether `material` says that the materials are those of the model's file.
+bool has_materials_of_file(const TableView& table);
+
+}  // namespace backlight
