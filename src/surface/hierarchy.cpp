@@ -83,6 +83,7 @@ class Builder {
   }
 
   std::vector<WideNode> build() && {
+    nodes_.reserve(boxes_.size() / 4 + 1);  // seldom are more needed: what is not is never touched
     add(range(0, static_cast<int>(boxes_.size()), 0));
     return std::move(nodes_);
   }

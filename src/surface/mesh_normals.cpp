@@ -68,6 +68,7 @@ void add_smooth_normals(MeshData& data, double crease) {
   };
   data.normals.assign(data.places.size(), Vec3{0.0});
   std::vector<Vec3> normals;
+  std::vector<double> angles;
   struct Split {
     std::uint32_t from, corner;
   };
@@ -76,12 +77,15 @@ void add_smooth_normals(MeshData& data, double crease) {
     const Vec3 place = place_of(wedges[first]);
     while (last < wedges.size() && place_of(wedges[last]) == place) ++last;
     normals.assign(last - first, Vec3{0.0});
+    angles.clear();
+    for (std::size_t i = first; i < last; ++i)
+      angles.push_back(angle_at(data, data.triangles[wedges[i].triangle], wedges[i].corner));
     for (std::size_t i = first; i < last; ++i) {
       const Vec3& own = faces[wedges[i].triangle];
       for (std::size_t k = first; k < last; ++k) {
         const Vec3& other = faces[wedges[k].triangle];
         if (k != i && !(glm::dot(own, other) >= least_cosine)) continue;
-        normals[i - first] += angle_at(data, data.triangles[wedges[k].triangle], wedges[k].corner) * other;
+        normals[i - first] += angles[k - first] * other;
       }
     }
     split.clear();
