@@ -220,6 +220,8 @@ std::string_view code_of(RootFinder finder) {
       return "polynomial";
     case RootFinder::affine:
       return "affine";
+    case RootFinder::triangles:
+      return "triangles";
     case RootFinder::solid:
       break;
   }
