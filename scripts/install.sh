@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a group of tasks needs, and only those that are missing.
 #
-#   scripts/install.sh [build] [test] [ci] [bench] [charts] [oracle] [farm]      (default: build)
+#   scripts/install.sh [build] [test] [ci] [bench] [charts] [oracle] [farm] [blender]      (default: build)
 #
 #   build    compiler, CMake and libraries: what scripts/render.sh needs
 #   test     what the tests need besides
@@ -9,6 +9,7 @@
 #   bench    what scripts/bench.sh measures beside: POV-Ray, Embree; and kernel benchmarks
 #   charts   what scripts/gallery.sh and the charts of docs/ need besides
 #   farm     a Slurm for this machine alone, GNU parallel and ffmpeg: what tests/farm/run.sh needs
+#   blender  Blender, on which the test of its exporter is skipped otherwise: 600 MB
 #   oracle   mpmath, to recompute the reference values that the tests hold as literals
 #
 # Made for Debian 12. With everything present it needs neither root nor network.
@@ -22,12 +23,13 @@ declare -A packages=(
   [charts]="gnuplot-nox openimageio-tools python3 fonts-dejavu-core"
   [farm]="slurmctld slurmd slurm-client munge parallel ffmpeg"
   [oracle]="python3 python3-mpmath"
+  [blender]="blender"
 )
 
 wanted=()
 for group in "${@:-build}"; do
   if [[ -z ${packages[$group]:-} ]]; then
-    echo "scripts/install.sh: no group '$group'; there are: build test ci bench charts farm oracle" >&2
+    echo "scripts/install.sh: no group '$group'; there are: build test ci bench charts farm oracle blender" >&2
     exit 2
   fi
   read -ra names <<<"${packages[$group]}"

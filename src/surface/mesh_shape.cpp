@@ -82,7 +82,8 @@ LocalPoint point_on(const Shape& shape, const LocalLine& line, const Crossing& c
   const Vec3 &a = data.places[corner[0]], &b = data.places[corner[1]], &c = data.places[corner[2]];
   LocalPoint point;
   point.position = a + (weight.y * (b - a) + weight.z * (c - a));
-  point.gradient = glm::cross(of_size_one(b - a), of_size_one(c - a));
+  const double unit = 1.0 / shape.mesh->radius();  // so that no product over- or underflows
+  point.gradient = glm::cross(unit * (b - a), unit * (c - a));
   if (!data.normals.empty()) {
     point.shading = mean(data.normals[corner[0]], data.normals[corner[1]], data.normals[corner[2]]);
     if (glm::dot(point.shading, point.gradient) < 0.0) point.shading = -point.shading;
