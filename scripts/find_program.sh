@@ -10,6 +10,7 @@ find_program() {
   local top program=${1:-${BACKLIGHT:-}}
   top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
   [[ -n $program ]] || program=$(command -v backlight) || program=$top/build/release/bin/backlight
+  [[ -n $program && ! -e $program && -e $top/../../bin/backlight ]] && program=$top/../../bin/backlight
   if ! command -v "$program" >/dev/null; then
     echo "${0##*/}: there is no program $program: build it with scripts/render.sh, put it into the PATH, or name it in BACKLIGHT" >&2
     return 1

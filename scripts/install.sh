@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a group of tasks needs, and only those that are missing.
 #
-#   scripts/install.sh [build] [test] [ci] [bench] [charts] [oracle] [farm] [blender]      (default: build)
+#   scripts/install.sh [build] [test] [ci] [bench] [charts] [oracle] [farm] [blender] [package]      (default: build)
 #
 #   build    compiler, CMake and libraries: what scripts/render.sh needs
 #   test     what the tests need besides
@@ -10,6 +10,7 @@
 #   charts   what scripts/gallery.sh and the charts of docs/ need besides
 #   farm     a Slurm for this machine alone, GNU parallel and ffmpeg: what tests/farm/run.sh needs
 #   blender  Blender, on which the test of its exporter is skipped otherwise: 600 MB
+#   package  what scripts/package.sh needs besides, and its test: pandoc, lintian, debootstrap
 #   oracle   mpmath, to recompute the reference values that the tests hold as literals
 #
 # Made for Debian 12. With everything present it needs neither root nor network.
@@ -22,6 +23,7 @@ declare -A packages=(
   [bench]="libbenchmark-dev libembree-dev libmpfr-dev povray python3 util-linux"
   [charts]="gnuplot-nox openimageio-tools python3 fonts-dejavu-core"
   [farm]="slurmctld slurmd slurm-client munge parallel ffmpeg"
+  [package]="pandoc python3 dpkg-dev file lintian debootstrap"
   [oracle]="python3 python3-mpmath"
   [blender]="blender"
 )
@@ -29,7 +31,7 @@ declare -A packages=(
 wanted=()
 for group in "${@:-build}"; do
   if [[ -z ${packages[$group]:-} ]]; then
-    echo "scripts/install.sh: no group '$group'; there are: build test ci bench charts farm oracle blender" >&2
+    echo "scripts/install.sh: no group '$group'; there are: build test ci bench charts farm oracle blender package" >&2
     exit 2
   fi
   read -ra names <<<"${packages[$group]}"

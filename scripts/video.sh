@@ -13,7 +13,7 @@
 # The program is FILE, $BACKLIGHT, the one in the PATH or build/release/bin/backlight of this clone: the first of them.
 set -euo pipefail
 # shellcheck source=scripts/find_program.sh
-source "$(dirname "$0")/find_program.sh"
+source "$(dirname "$(realpath "$0")")/find_program.sh"
 
 fail() { echo "scripts/video.sh: $1" >&2 && exit "${2:-2}"; }
 

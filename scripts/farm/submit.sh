@@ -29,7 +29,7 @@
 # The program is $BACKLIGHT, the one in the PATH or build/release/bin/backlight of this clone, the first of them; the nodes must see
 # it under the same path.
 set -euo pipefail
-here=$(cd "$(dirname "$0")" && pwd)
+here=$(cd "$(dirname "$(realpath "$0")")" && pwd)
 # shellcheck source=scripts/find_program.sh
 source "$here/../find_program.sh"
 

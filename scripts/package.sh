@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Makes the Debian package: out/backlight_VERSION-1_ARCHITECTURE.deb. Says how it fares with lintian.
+#
+#   scripts/package.sh [FOLDER]        puts the package into FOLDER instead of out/
+#
+# Its dates are those of the last commit, so that the same sources give the same package.
+set -euo pipefail
+folder=$(realpath -m "${1:-$(dirname "$0")/../out}")
+cd "$(dirname "$0")/.."
+scripts/install.sh build package
+if [[ -z ${SOURCE_DATE_EPOCH:-} ]]; then
+  SOURCE_DATE_EPOCH=$(git log -1 --format=%ct 2>/dev/null || date +%s)
+fi
+export SOURCE_DATE_EPOCH
+# The tests are left out, unless this build folder has them already.
+tests=OFF
+grep -qs '^BACKLIGHT_TESTS:BOOL=ON' build/release/CMakeCache.txt && tests=ON
+cmake --preset release -DBACKLIGHT_TESTS=$tests
+cmake --build --preset release --target backlight backlight_oiio backlight_models manual documents
+mkdir -p "$folder"
+(cd build/release && cpack -B "$folder")
+rm -rf "$folder/_CPack_Packages"
+for package in "$folder"/backlight_*.deb; do
+  lintian --fail-on error --suppress-tags bogus-mail-host "$package"
+  echo "$package"
+done
