@@ -218,7 +218,7 @@ void add_film_flags(CLI::App& app, ImageRequest& request, RenderOptions& options
   add_value(
       app, "--aov", "LIST",
       "data channels besides the colour, with commas between: Z, doppler, emissionTime, properTime, P, N, "
-      "objectId, unresolved, light, samples; or all, or none",
+      "objectId, unresolved, light, samples, mirror; or all, or none",
       parse_aovs, [&request](std::vector<std::string> names) { request.aovs = std::move(names); })
       ->group(group);
 }

@@ -93,6 +93,7 @@ std::string statistics_json(const Scene& scene, const Needs& needs, const Render
   object.number("threadSeconds", statistics.thread_seconds);
   object.count("cameraRays", statistics.rays.primary).count("shadowRays", statistics.rays.shadow);
   object.count("dataRays", statistics.rays.data).count("singleRays", statistics.rays.single);
+  object.count("mirrorRays", statistics.rays.passed_on).count("endedRays", statistics.rays.ended);
   object.count("nonFinitePixels", faults.non_finite).count("beyondHalfPixels", faults.beyond_half);
   object.count("saturatedPixels", faults.saturated);
   object.count("surfacesMade", scene.counts.surfaces_made)

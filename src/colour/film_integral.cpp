@@ -30,9 +30,7 @@ LinearRgb film_weight(std::size_t cell, double fraction) {
 // The knots of a spectrum, at the camera's wavelengths, in rising order.
 class Knots {
  public:
-  Knots(const Spectrum* spectrum, double shift) : shift_(shift) {
-    if (spectrum != nullptr) left_ = spectrum->knots();
-  }
+  Knots(const Spectrum& spectrum, double shift) : left_(spectrum.knots()), shift_(shift) {}
 
   // The first beyond `nm`.
   double after(double nm) {
@@ -50,12 +48,11 @@ class Knots {
   bool started_ = false;
 };
 
-// A light and a reflectance as the camera has them.
+// A light as the camera has it, and what it goes through.
 struct Product {
   const Spectrum& light;
   double shift;
-  const Spectrum* reflectance;
-  double reflectance_shift;
+  std::span<const Filter> filters;
 };
 
 // Points of integration and what the observer makes of each.
@@ -90,14 +87,21 @@ void add_cell(std::size_t cell, double from, double to, int parts, Work& work) {
 }
 
 void add_points(const Product& p, double begin, double end, Work& work) {
-  Knots of_light(&p.light, p.shift), of_reflectance(p.reflectance, p.reflectance_shift);
-  const double longest = longest_cell_nm / std::max({p.shift, p.reflectance_shift, longest_cell_nm});
+  static thread_local std::vector<Knots> knots;
+  knots.assign(1, Knots(p.light, p.shift));
+  double greatest = p.shift;
+  for (const Filter& filter : p.filters) {
+    knots.emplace_back(*filter.spectrum, filter.shift);
+    greatest = std::max(greatest, filter.shift);
+  }
+  const double longest = longest_cell_nm / std::max(greatest, longest_cell_nm);
   double from = std::max(begin, static_cast<double>(cie::first_nm));
   end = std::min(end, static_cast<double>(cie::last_nm));
   while (from < end) {
     const auto cell = static_cast<std::size_t>(from - cie::first_nm);
     const double next = cie::first_nm + static_cast<double>(cell) + 1.0;
-    const double to = std::min({next, end, of_light.after(from), of_reflectance.after(from)});
+    double to = std::min(next, end);
+    for (Knots& of : knots) to = std::min(to, of.after(from));
     add_cell(cell, from, to, static_cast<int>(std::ceil((to - from) / longest)), work);
     from = to;
   }
@@ -155,21 +159,28 @@ void collect(const Product& p, Work& work) {
 
 LinearRgb integrate_film(const Spectrum& light, double shift, const Spectrum* reflectance,
                          double reflectance_shift) {
+  const Filter filter{reflectance, reflectance_shift};
+  return integrate_film(light, shift, {&filter, reflectance == nullptr ? 0U : 1U});
+}
+
+LinearRgb integrate_film(const Spectrum& light, double shift, std::span<const Filter> filters) {
   static thread_local Work work;
-  collect({light, shift, reflectance, reflectance_shift}, work);
-  LinearRgb sum{0.0};
-  if (reflectance == nullptr) {
-    for (const LinearRgb& weight : work.weight) sum += weight;
-    return sum;
+  collect({light, shift, filters}, work);
+  for (const Filter& filter : filters) {
+    work.evaluate(*filter.spectrum, filter.shift);
+    for (std::size_t i = 0; i < work.nm.size(); ++i) {
+      const double share = filter.power == 1.0 ? work.value[i] : std::pow(work.value[i], filter.power);
+      work.weight[i] *= share;
+    }
   }
-  work.evaluate(*reflectance, reflectance_shift);
-  for (std::size_t i = 0; i < work.nm.size(); ++i) sum += work.value[i] * work.weight[i];
+  LinearRgb sum{0.0};
+  for (const LinearRgb& weight : work.weight) sum += weight;
   return sum;
 }
 
 FilmQuadrature film_quadrature(const Spectrum& light) {
   Work work;
-  collect({light, 1.0, nullptr, 1.0}, work);
+  collect({light, 1.0, {}}, work);
   return {std::move(work.nm), std::move(work.weight)};
 }
 

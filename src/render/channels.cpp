@@ -17,11 +17,13 @@ struct DataChannel {
   std::string_view aov;
   const char* name;
   double (*value)(const PixelData&);
+  bool (*to_nothing)(const PixelData&) = nullptr;  // of a distance: whether it is infinite
 };
 
 using R = PixelData;
 constexpr std::array data_channels{
-    DataChannel{"Z", "Z", [](const R& r) { return r.surface.distance; }},
+    DataChannel{"Z", "Z", [](const R& r) { return r.surface.distance; },
+                [](const R& r) { return r.surface.object_id == 0; }},
     DataChannel{"doppler", "doppler.D", [](const R& r) { return r.surface.doppler; }},
     DataChannel{"emissionTime", "emissionTime.T", [](const R& r) { return r.surface.emission_time; }},
     DataChannel{"properTime", "properTime.T", [](const R& r) { return r.surface.proper_time; }},
@@ -36,21 +38,20 @@ constexpr std::array data_channels{
     DataChannel{"unresolved", "unresolved.V", [](const R& r) { return r.surface.unresolved ? 1.0 : 0.0; }},
     DataChannel{"light", "light.N", [](const R& r) { return static_cast<double>(r.surface.lamps); }},
     DataChannel{"light", "light.Y", [](const R& r) { return r.surface.unshifted; }},
+    DataChannel{"mirror", "mirror.Z", [](const R& r) { return r.surface.mirror.distance; },
+                [](const R& r) { return r.surface.mirror.object_id == 0; }},
+    DataChannel{"mirror", "mirror.D", [](const R& r) { return r.surface.mirror.doppler; }},
+    DataChannel{"mirror", "mirror.T", [](const R& r) { return r.surface.mirror.emission_time; }},
+    DataChannel{"mirror", "mirror.V",
+                [](const R& r) { return static_cast<double>(r.surface.mirror.object_id); }},
     DataChannel{"samples", "samples.N", [](const R& r) { return static_cast<double>(r.samples); }},
 };
-
-bool asked_for(const Scene& scene, std::string_view aov) {
-  for (const std::string& name : scene.film.aovs) {
-    if (name == aov) return true;
-  }
-  return false;
-}
 
 std::vector<ChannelInfo> channels_of_one_view(const Scene& scene) {
   std::vector<ChannelInfo> channels;
   for (const char* name : {"R", "G", "B", "A"}) channels.push_back({name, ChannelPrecision::half});
   for (const DataChannel& channel : data_channels) {
-    if (asked_for(scene, channel.aov)) channels.push_back({channel.name, ChannelPrecision::single});
+    if (has_aov(scene, channel.aov)) channels.push_back({channel.name, ChannelPrecision::single});
   }
   return channels;
 }
@@ -74,7 +75,7 @@ bool has_data_channels(const Scene& scene) {
 }
 
 bool has_light_channels(const Scene& scene) {
-  return asked_for(scene, "light");
+  return has_aov(scene, "light");
 }
 
 LinearRgb saturated(const LinearRgb& rgb) {
@@ -91,9 +92,8 @@ PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
   for (std::size_t c = 0; c < 4; ++c) colour_[c] = image.plane(first_ + c).data();
   if (!has_data_channels(scene)) return;
   for (const DataChannel& channel : data_channels) {
-    if (!asked_for(scene, channel.aov)) continue;
-    if (channel.aov == "Z") distance_ = data_.size();
-    data_.push_back(channel.value);
+    if (!has_aov(scene, channel.aov)) continue;
+    data_.push_back({channel.value, channel.to_nothing});
   }
 }
 
@@ -156,9 +156,9 @@ void PixelWriter::expect(std::size_t at, std::size_t columns) const {
 bool PixelWriter::data(int x, int y, const PixelData& data) const {
   bool finite = true;
   for (std::size_t i = 0; i < data_.size(); ++i) {
-    const auto stored = static_cast<float>(data_[i](data));
+    const auto stored = static_cast<float>(data_[i].value(data));
     image_->at(first_ + 4 + i, x, y) = stored;
-    finite &= std::isfinite(stored) || (i == distance_ && data.surface.object_id == 0);
+    finite &= std::isfinite(stored) || (data_[i].to_nothing != nullptr && data_[i].to_nothing(data));
   }
   return finite;
 }

@@ -63,8 +63,12 @@ class PixelWriter {
   Image* image_;
   std::size_t first_;             // channel
   std::array<float*, 4> colour_;  // planes
-  std::vector<double (*)(const PixelData&)> data_;
-  std::size_t distance_ = ~std::size_t{0};  // which of them is Z
+  // A data channel's number, and of a distance whether it is one to nothing: infinite.
+  struct Data {
+    double (*value)(const PixelData&);
+    bool (*to_nothing)(const PixelData&);  // null: it is none
+  };
+  std::vector<Data> data_;
 };
 
 }  // namespace backlight

@@ -23,8 +23,9 @@ struct Allowed {
 std::vector<Allowed> allowed_in(const ImageLayout& layout) {
   std::vector<Allowed> allowed;
   for (const ChannelInfo& channel : layout.channels) {
-    allowed.push_back(
-        {channel.precision == ChannelPrecision::half, names_channel("Z", channel.name, layout.views)});
+    allowed.push_back({channel.precision == ChannelPrecision::half,
+                       names_channel("Z", channel.name, layout.views) ||
+                           names_channel("mirror.Z", channel.name, layout.views)});
   }
   return allowed;
 }

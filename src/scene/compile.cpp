@@ -171,6 +171,7 @@ FilmSettings read_film(ImageValues& values, const ImageRequest& request) {
   film.height = static_cast<int>(size[1]);
   film.seed = static_cast<unsigned>(table.number("seed"));
   film.exposure = table.number("exposure");
+  film.bounces = static_cast<int>(table.number("bounces"));
   if (const Node* aovs = table.node_of("aovs"); aovs != nullptr && aovs->array() != nullptr) {
     for (const Node& name : *aovs->array()) {
       if (name.text() != nullptr) film.aovs.push_back(*name.text());
@@ -293,6 +294,7 @@ std::optional<Scene> SceneCompiler::compile(const ImageRequest& request, Diagnos
   compile_sky(parts);
   compile_effects(parts);
   if (!diagnostics.has_errors()) foresee_brightness(parts);
+  if (!diagnostics.has_errors()) tell_of_mirrors(parts);
   if (!diagnostics.has_errors()) check_reach(parts);
   if (!diagnostics.has_errors()) warn_of_hidden_lamps(parts);
   if (!diagnostics.has_errors() && images_ == Images::several) return scene;

@@ -36,6 +36,9 @@ void compile_effects(Compilation& c);
 /// nothing was wrong.
 void foresee_brightness(Compilation& c);
 
+/// Warns of what mirrors do not show; once for all images. After all the others, if nothing was wrong.
+void tell_of_mirrors(Compilation& c);
+
 /// Adds an error for things that move so fast relative to each other, or so far from the origin, that frames
 /// cannot be composed to what is promised. For a scene that is whole.
 void check_reach(Compilation& c);

@@ -62,6 +62,7 @@ struct CompiledParts {
   ObjectPlan objects;
   std::optional<SharedVector<Star>> stars;
   bool brightness_is_foreseen = false;
+  bool mirrors_are_told_of = false;
   std::optional<bool> lives_by_own_time;  ///< whether anything matter has goes by its own time; not asked yet
 };
 

@@ -58,6 +58,16 @@ KeyTable material() {
        own(number("specular", 0.0, "", "The share of the light that the Phong lobe reflects.",
                   between(0, 1))),
        own(number("shininess", 50.0, "", "The exponent of the Phong lobe.", above(0))),
+       {"mirror",
+        {{ValueKind::number}, {ValueKind::numbers, 3}},
+        Nothing{},
+        "",
+        "The share of the light that the surface reflects as a mirror does: a number, or `[red, green, "
+        "blue]`. "
+        "What is seen in it comes on top of what the other keys say; a mirror of which none of `color`, "
+        "`texture`, `checker` and `spectrum` is written reflects nothing else.",
+        between(0, 1),
+        {}},
        own(number(
            "emission", 0.0, "film Y",
            "Own radiance, added to what is reflected; with `absolute` an emissivity, without a unit, and 1 "

@@ -81,6 +81,11 @@ KeyTable film() {
               "Multiplies every film value. Of light with `absolute = true` it is the film value of 1 cd/m²: "
               "6e-10 shows the disc of the sun as about 1, 3e-5 a white wall in the sun. May depend on `t`.",
               at_least(0)),
+       number(
+           "bounces", 8.0, "",
+           "How many mirrors a ray is followed through, one after the other, before it ends black (which is "
+           "counted, and warned of).",
+           whole(0, 1000)),
        number("seed", 0.0, "", "Another number gives other sample positions.", whole(0, 4294967295.0)),
        {"aovs",
         {{ValueKind::choices}},
@@ -92,10 +97,13 @@ KeyTable film() {
         "all that is of a surface is 0 too), 1 where a root is not resolved (`unresolved`, see the shape "
         "implicit), and the light: `light.N`, how many lights reach the point (its own one of them; -1 where "
         "there is no surface), and `light.Y`, the luminance it would have if no colour were shifted. "
-        "`samples.N` is the number of samples that the pixel got.",
+        "`samples.N` is the number of samples that the pixel got. All of that is of the first surface; "
+        "`mirror.Z`, `mirror.D`, `mirror.T` and `mirror.V` are the light-travel distance, Doppler factor, "
+        "world "
+        "time and object's number of what is seen in it, where it is a mirror.",
         {},
-        {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId", "unresolved", "light",
-         "samples"}}},
+        {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId", "unresolved", "light", "samples",
+         "mirror"}}},
       ""};
 }
 

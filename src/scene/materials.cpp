@@ -236,6 +236,7 @@ void Materials::read(const MaterialPlan::Place& place) {
   Material& material = materials_.back();
   material.name = place.name;
   MaterialInTime in_time;
+  if (table.has("mirror")) material.mirror = read_shares(table, "mirror");
   read_reflectance(table, material, in_time);
   if (const auto lobe = read_lobe_in_time(table)) {
     in_time.lobe = lobe;
@@ -250,9 +251,10 @@ void Materials::read(const MaterialPlan::Place& place) {
 
 void Materials::read_reflectance(const TableView& table, Material& material, MaterialInTime& in_time) {
   const std::string_view given = table.one_of({"color", "texture", "checker", "spectrum"});
-  material.reflectance = grey(default_grey);
+  const double unwritten = passes_on(material) ? 0.0 : default_grey;
+  material.reflectance = grey(unwritten);
   const auto changing =
-      given != "spectrum" ? read_reflectance_in_time(table, given, default_grey) : std::nullopt;
+      given != "spectrum" ? read_reflectance_in_time(table, given, unwritten) : std::nullopt;
   if (changing) {
     in_time.reflectance = changing;
     if (given == "texture") material.texture = read_texture(table, "texture", cache_);
@@ -263,7 +265,7 @@ void Materials::read_reflectance(const TableView& table, Material& material, Mat
   const auto ir = table.optional_number("ir");
   if (given.empty() || given == "color") {
     if (given == "color") material.reflectance.rgb = table.vector("color");
-    pending_.push_back({materials_.size() - 1, nullptr, 0, uv, ir});
+    pending_.push_back({materials_.size() - 1, nullptr, uv, ir});
   } else if (given == "texture") {
     material.texture = read_texture(table, "texture", cache_);
     material.uv = uv;
@@ -272,15 +274,22 @@ void Materials::read_reflectance(const TableView& table, Material& material, Mat
     const std::shared_ptr<Checker> checker = read_checker(table);
     material.checker = checker;
     if (checker) {
-      for (const std::size_t square : {0U, 1U}) {
-        pending_.push_back({materials_.size() - 1, checker.get(), square, uv, ir});
-      }
+      for (Colour& square : checker->colours) pending_.push_back({materials_.size() - 1, &square, uv, ir});
     }
   } else if (const auto spectrum = read_reflectance_spectrum(table, cache_)) {
     material.reflectance = {*spectrum, colour_under_d65(*spectrum)};
     if (uv || ir)
       table.error(uv ? "uv" : "ir", "'spectrum' already says what is reflected outside the visible");
   }
+}
+
+// Of red, green and blue, or the same of all.
+std::shared_ptr<Colour> Materials::read_shares(const TableView& table, std::string_view key) {
+  const bool three = table.node_of(key)->array() != nullptr;
+  auto shares = std::make_shared<Colour>(grey(three ? 0.0 : table.number(key)));
+  if (three) shares->rgb = table.vector(key);
+  pending_.push_back({materials_.size() - 1, shares.get(), {}, {}});
+  return shares;
 }
 
 std::shared_ptr<Checker> Materials::read_checker(const TableView& table) {
@@ -342,7 +351,7 @@ SharedVector<Material> Materials::finish(CompileCounts& counts) {
 
 void Materials::make_spectra() {
   const auto colour_of = [&](const Pending& p) -> Colour& {
-    return p.checker == nullptr ? materials_[p.material].reflectance : p.checker->colours[p.square];
+    return p.colour == nullptr ? materials_[p.material].reflectance : *p.colour;
   };
   std::set<std::array<double, 3>> colours;
   for (const Pending& p : pending_) {

@@ -62,11 +62,10 @@ class Materials {
 
  private:
   // A reflectance given as red, green, blue, whose spectrum is made at the end: of a material, or of one of
-  // the squares of its checker.
+  // the squares of its checker, or of its mirror.
   struct Pending {
     std::size_t material;
-    Checker* checker;  // or null
-    std::size_t square;
+    Colour* colour;  // or null: the material's reflectance
     std::optional<double> uv, ir;
   };
 
@@ -75,6 +74,7 @@ class Materials {
   void read_of_file(const MaterialPlan::Place& place);
   void make_spectra();
   void read_reflectance(const TableView& table, Material& material, MaterialInTime& in_time);
+  std::shared_ptr<Colour> read_shares(const TableView& table, std::string_view key);
   static std::shared_ptr<Checker> read_checker(const TableView& table);
   void read_emission(const TableView& table, Material& material, MaterialInTime& in_time);
   [[nodiscard]] std::optional<Colour> read_emission_light(const TableView& table, std::string_view given);

@@ -30,7 +30,7 @@ void Materials::read_of_file(const MaterialPlan::Place& place) {
   }
   if (given.texture.empty() && given.embedded_texture.empty()) {
     material.reflectance.rgb = color;
-    pending_.push_back({materials_.size() - 1, nullptr, 0, std::nullopt, std::nullopt});
+    pending_.push_back({materials_.size() - 1, nullptr, std::nullopt, std::nullopt});
   } else {
     material.reflectance = {Spectrum::constant(0.8), LinearRgb{0.8}};
     auto texture = cache_.texture_of(given, color);

@@ -59,6 +59,27 @@ struct ShiftingMotion {
   std::string words;
 };
 
+// What a mirror shows is light on its way to the mirror, as a lamp's is: only its motion against what it
+// shows counts where no light travels to the camera.
+std::optional<ShiftingMotion> motion_in_mirrors(const Scene& scene) {
+  for (const SceneFrame& mirror : scene.frames) {
+    if (!passes_on(scene, mirror)) continue;
+    const ExtendedVec3& its = mirror.motion.celerity;
+    if (scene.sky.emits && moves(celerity_of(scene, scene.sky.frame), its)) {
+      return ShiftingMotion{ModelReason::mirror_moves,
+                            "the background moves relative to " + name_of(scene, mirror) + ", a mirror's"};
+    }
+    for (const SceneFrame& frame : scene.frames) {
+      if (frame.object_of_surface.empty()) continue;
+      if (!frame.surfaces->any_moves() && !mirror.surfaces->any_moves() && !moves(frame.motion.celerity, its))
+        continue;
+      return ShiftingMotion{ModelReason::mirror_moves, name_of(scene, frame) + " moves relative to " +
+                                                           name_of(scene, mirror) + ", a mirror's"};
+    }
+  }
+  return std::nullopt;
+}
+
 // The first of them, if there is any.
 std::optional<ShiftingMotion> shifting_motion(const Scene& scene, const Shifts& shown) {
   const ExtendedVec3& camera = scene.camera.celerity;
@@ -82,7 +103,7 @@ std::optional<ShiftingMotion> shifting_motion(const Scene& scene, const Shifts& 
           name_of(scene, light) + " and " + name_of(scene, frame) + " move relative to each other"};
     }
   }
-  return std::nullopt;
+  return shown.from_light ? motion_in_mirrors(scene) : std::nullopt;
 }
 
 void choose_model(const Scene& scene, Needs& needs) {
@@ -182,6 +203,8 @@ std::string_view code_of(ModelReason reason) {
       return "background-moves";
     case ModelReason::object_moves:
       return "object-moves";
+    case ModelReason::mirror_moves:
+      return "mirror-moves";
     case ModelReason::light_moves:
       return "light-moves";
     case ModelReason::only_stars_shift:

@@ -24,12 +24,14 @@ RestRayEvents from_camera(const FrameView& frame, const CameraRay& ray) {
     events.origin += offset.x;
     events.time += offset.t;
   }
-  if (ray.light_delay) {
-    const NullDirection<Rest> n = frame.from_camera(NullDirection<Camera>{ray.direction, 1.0});
+  events.index = ray.index;
+  if (ray.light_delay && ray.index == 1.0) {
+    const NullDirection<Rest> n = frame.from_camera(NullDirection<Camera>{ray.direction, ray.length});
     events.direction = n.x;
     events.time_rate = -n.length;
   } else {
-    const Displacement<Rest> n = frame.from_camera(Displacement<Camera>{0.0, ray.direction});
+    const double rate = ray.light_delay ? -ray.index * ray.length : 0.0;
+    const Displacement<Rest> n = frame.from_camera(Displacement<Camera>{rate, ray.direction});
     events.direction = n.x;
     events.time_rate = n.t;
   }
@@ -48,7 +50,8 @@ double start_near(const BoundingSphere& bounds, const RestRayEvents& events) {
 
 ExtendedEvent far_event(const FarView& far, const CameraRay& ray, const Extended& lambda) {
   const ExtendedVec3 looking{ray.direction};
-  const Extended rate = ray.light_delay ? -sqrt(dot(looking, looking)) : Extended(0.0);
+  Extended rate = ray.light_delay ? -sqrt(dot(looking, looking)) : Extended(0.0);
+  if (ray.index != 1.0) rate = Extended(ray.index) * rate;
   const ExtendedEvent n = far.from_camera(ExtendedEvent{rate, looking});
   ExtendedEvent event = far.camera_event;
   if (ray.displaced) {

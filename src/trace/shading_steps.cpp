@@ -63,6 +63,7 @@ LinearRgb whole_colour(const SeenSpectrum& light, double shift, double luminance
 
 LinearRgb shifted_colour(const SeenSpectrum& emission, Scratch& s) {
   const Spectrum& spectrum = *emission.spectrum;
+  if (!s.filters.empty()) return integrate_film(spectrum, s.shift, s.filters);
   if (spectrum.has_features()) return integrate_film(spectrum, s.shift);
   if (emission.number != 0 && spectrum.shape()) {
     const auto place = emission.set->lights().at(spectrum, s.shift);
@@ -73,13 +74,27 @@ LinearRgb shifted_colour(const SeenSpectrum& emission, Scratch& s) {
   return emission.set->film_under(spectrum, s.shift, nullptr, s.lamp.data(), *s.kernels);
 }
 
+namespace {
+
+// Under what the light goes through, and a reflectance (or null) besides.
+LinearRgb through_filters(const Spectrum& light, double shift, const Spectrum* reflectance, Scratch& s) {
+  if (reflectance == nullptr) return integrate_film(light, shift, s.filters);
+  s.filters.push_back({reflectance, s.shift});
+  const LinearRgb colour = integrate_film(light, shift, s.filters);
+  s.filters.pop_back();
+  return colour;
+}
+
+}  // namespace
+
 LinearRgb shifted_rgb(const ShadingContext& context, const LinearRgb& rgb, Scratch& s) {
   // D65 times a reflectance of half the largest component, as for any coloured light.
   const double scale = 2.0 * std::max({rgb.r, rgb.g, rgb.b});
   if (!(scale > 0.0)) return LinearRgb{0.0};
-  if (s.shift == 1.0) return rgb;  // which the spectrum would be matched to
+  if (s.shift == 1.0 && s.filters.empty()) return rgb;  // which the spectrum would be matched to
   const auto [shape, set] = context.wavelengths->upsampled(rgb / scale, 0.0);
   s.texel = Spectrum::sigmoid_reflectance(shape);
+  if (!s.filters.empty()) return scale * through_filters(Spectrum::d65(), s.shift, &s.texel, s);
   s.texel.evaluate(shifted_wavelengths(*set, s), set->size(), s.reflectance.data(), *s.kernels);
   const WavelengthSet::Sampled sampled{s.reflectance.data(), &s.texel, s.shift};
   return scale * set->film_under(Spectrum::d65(), s.shift, &sampled, s.lamp.data(), *s.kernels);
@@ -145,6 +160,12 @@ LampColours lamp_colours(const SeenSpectrum& lamp, DopplerFactor<Rest, Source> d
   const SeenSpectrum& seen = reflectance.seen;
   const double shift = wavelength_at_origin(doppler, s.shift);
   LampColours colours;
+  if (!s.filters.empty()) {
+    if (reflectance.grey || has_lobe) colours.whole = through_filters(light, shift, nullptr, s);
+    colours.reflected = reflectance.grey ? *reflectance.grey * colours.whole
+                                         : through_filters(light, shift, seen.spectrum, s);
+    return colours;
+  }
   if (light.has_features()) {
     if (reflectance.grey || has_lobe) colours.whole = integrate_film(light, shift);
     colours.reflected = reflectance.grey ? *reflectance.grey * colours.whole

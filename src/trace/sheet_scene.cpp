@@ -17,10 +17,12 @@ bool is_extended(const FrameView& view) {
   return view.from_camera.is_robust() || view.far != nullptr;
 }
 
-// Whether a material of the object is another one at each time.
-bool lives(const Scene& scene, const Object& object) {
+// Whether the light of the object's points is not for lanes: a material of it is another one at each time, or
+// passes light on.
+bool is_for_the_law(const Scene& scene, const Object& object) {
   const auto its = [&](int material) {
-    return scene.materials[static_cast<std::size_t>(material)].in_time != nullptr;
+    const Material& of = scene.materials[static_cast<std::size_t>(material)];
+    return of.in_time != nullptr || passes_on(of);
   };
   return its(object.material) || std::ranges::any_of(object.member_materials, its);
 }
@@ -64,8 +66,8 @@ void SheetScene::list_entries(const Scene& scene) {
     for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {
       const Object& object = object_of(scene, frame, s);
       const int key = object.member_materials.empty() ? object.material : -1 - object.id;
-      const Group its{lives(scene, object), surfaces.moves(s)};
-      const auto [group, is_new] = group_of[(its.lives ? 1 : 0) + (its.moves ? 2 : 0)].try_emplace(
+      const Group its{is_for_the_law(scene, object), surfaces.moves(s)};
+      const auto [group, is_new] = group_of[(its.singly ? 1 : 0) + (its.moves ? 2 : 0)].try_emplace(
           key, static_cast<int>(groups_.size()));
       if (is_new) groups_.push_back(its);
       numbered_.push_back({static_cast<int>(entries_.size()), group->second});

@@ -78,7 +78,7 @@ class SheetScene {
   [[nodiscard]] std::size_t group_count() const { return groups_.size(); }
   /// Whether the points of the group are lighted one at a time, by the law: their material is another one at
   /// each time.
-  [[nodiscard]] bool goes_singly(int group) const { return groups_[static_cast<std::size_t>(group)].lives; }
+  [[nodiscard]] bool goes_singly(int group) const { return groups_[static_cast<std::size_t>(group)].singly; }
   /// Whether the matter of the group may not be at rest in its frame.
   [[nodiscard]] bool moves(int group) const { return groups_[static_cast<std::size_t>(group)].moves; }
   [[nodiscard]] const SurfaceSet& surfaces(const Entry& entry) const {
@@ -103,7 +103,7 @@ class SheetScene {
   std::vector<Entry> entries_;
   std::vector<Numbered> numbered_;
   struct Group {
-    bool lives, moves;
+    bool singly, moves;
   };
   std::vector<Group> groups_;
   bool lamps_move_ = false;

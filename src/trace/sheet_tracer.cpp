@@ -148,12 +148,15 @@ class SheetPainter {
     const auto place = static_cast<std::size_t>(sheet.place[lane]);
     const bool dark = !hit.found() && !tracer_.scene().sky.emits;
     const CameraRay ray = camera_ray_of(tracer_.scene(), sheet.rays, lane, eye_);
-    scratch_.rays.start(ray);
     if (colours_) {
+      scratch_.rays.start(ray);
       if (hit.found()) ++scratch_.counts.single;
       light_.set_colour(place, dark ? LinearRgb{0.0} : tracer_.colour_of(ray, hit, *sheet.effects, scratch_));
     }
-    if (records_) light_.record[place] = tracer_.surface_of(ray, hit, scratch_);
+    if (records_) {
+      scratch_.rays.start(ray);
+      light_.record[place] = tracer_.surface_of(ray, hit, scratch_);
+    }
   }
 
   // Adds lanes of a sheet to the points, as many as there is room for; returns the others.

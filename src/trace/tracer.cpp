@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "leg.h"
 #include "light_record.h"
 #include "shading_steps.h"
 
@@ -39,6 +40,7 @@ bool any_without_shift(const Scene& scene) {
 Tracer::Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces, Search search)
     : scene_(&scene),
       hub_(make_hub(scene, pieces, search)),
+      relays_(scene, hub_, pieces),
       wavelengths_(&wavelength_set(wavelengths > 0 ? wavelengths : default_wavelength_count)),
       spectral_(wavelengths > 0),
       stars_(star_images(scene, hub_, *wavelengths_)) {
@@ -66,27 +68,7 @@ RayLight Tracer::light(const CameraRay& ray, const Effects& effects, Scratch& sc
 LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Effects& effects,
                             Scratch& scratch) const {
   if (hit.hit.unresolved) ++scratch.counts.unresolved;
-  const int frame = hit.found() ? hit.frame : scene_->sky.frame;
-  const RestRayEvents& events = scratch.rays.in(frame);
-
-  // What carries light to the camera: L_camera(λ) = F D L_rest(Dλ), equation (8); F alone where colours stay,
-  // (9).
-  const SeenPoint point = hit.found() ? seen_point(hub_, scratch.rays, hit) : SeenPoint{};
-  const DopplerFactor<Camera, Rest> doppler{events.doppler(ray.light_delay).value * point.doppler};
-  const double gamma = gamma_between(point, hub_.frames[static_cast<std::size_t>(frame)].from_camera);
-  const BrightnessSwitches& factors = effects.towards_camera();
-  const ShadingContext context = shading();
-
-  if (!spectral_ || !effects.doppler) {
-    // Light into the surface from its retarded event, shadow ray, reflection in the rest frame: (10)-(12).
-    const Radiance<Rest> radiance =
-        hit.found() ? shade(context, point, effects, scratch) : sky_radiance(scene_->sky, events);
-    return carry(radiance, doppler, gamma, factors).rgb;
-  }
-  shift_by(doppler, scratch);
-  const LinearRgb radiance = hit.found() ? shade_shifted(context, point, effects, scratch)
-                                         : sky_shifted(context, sky_radiance(scene_->sky, events), scratch);
-  return radiance_factor(doppler, gamma, factors) * wavelength_density_factor(doppler) * radiance;
+  return colour_along({nullptr, ray}, hit, effects, spectral_ && effects.doppler, scratch);
 }
 
 SurfaceRecord Tracer::surface(const CameraRay& ray, Scratch& scratch) const {
@@ -110,6 +92,9 @@ SurfaceRecord Tracer::surface_of(const CameraRay& ray, const FirstHit& hit, Scra
   record.position = point.surface.position;
   record.normal = point.normal;
   record.unresolved = hit.hit.unresolved;
+  if (relays_.any() && has_aov(*scene_, "mirror") && passes_on(material_at(point))) {
+    record.mirror = seen_in_mirror(ray, hit, scratch);
+  }
   return record;
 }
 

@@ -18,7 +18,7 @@ from reference import Reference, relative_difference
 
 CHANNELS = {"Z": ["Z"], "doppler": ["doppler.D"], "emissionTime": ["emissionTime.T"],
             "properTime": ["properTime.T"], "P": ["P.X", "P.Y", "P.Z"], "N": ["N.X", "N.Y", "N.Z"],
-            "RGB": ["R", "G", "B"]}
+            "mirrorZ": ["mirror.Z"], "mirrorD": ["mirror.D"], "mirrorT": ["mirror.T"], "RGB": ["R", "G", "B"]}
 TOLERANCE = {name: 1e-6 for name in CHANNELS} | {"RGB": 1e-5}
 HALF_TOLERANCE = 1e-3
 DETERMINED = 1e-8  # of the condition: some tens of roundings of the direction stay below tolerance

@@ -40,6 +40,10 @@ class Reference:
         hit = self.tracer.nearest(camera.frame, camera.event, ray)
         values = self.tracer.aovs(hit, light_delay) if hit else {}
         signature = hit.signature() if hit else (0, 0, 0)
+        if hit and "mirror" in hit.obj.material:
+            mirrored, through = self.tracer.seen_in_mirror(hit, light_delay)
+            values |= mirrored
+            signature += through
         try:
             values["RGB"], reached = self.shader.film(hit, ray, light_delay)
             signature += reached

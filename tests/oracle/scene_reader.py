@@ -94,6 +94,7 @@ class Scene:
         self.lights = [self._light(table) for table in document.get("light", [])]
         self.camera = self.camera_of(self.camera_table(camera_name))
         self.effects = document.get("effects", {})
+        self.bounces = document.get("film", {}).get("bounces", 8)
         self.background = document.get("background", {})
         self.background_frame = self.rest_frame(self.background)[0]
 

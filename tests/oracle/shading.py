@@ -8,6 +8,7 @@ from mpmath import mp, mpf
 from expression import evaluate_precisely
 from minkowski import ONE, ZERO, along, apply, boost, dot, norm, scaled, subtract, unit
 from motion import retarded
+from tracer import SELF
 
 COLOURED = ("temperature", "spectrum", "emission_color", "texture", "checker", "color_texture")
 
@@ -77,9 +78,13 @@ class Shader:
         """(RGB film value of a traced camera ray, which lights reach the hit)."""
         if self.refusal:
             raise Unsupported(self.refusal)
-        camera = self.scene.camera.frame
+        leg = (self.scene.camera.frame, [ZERO] * 3, ONE)
+        return self._seen(hit, self.scene.camera.frame, ray, light_delay, leg, 0)
+
+    def _seen(self, hit, frame, ray, light_delay, leg, passed):
+        """The same along a ray of `frame`, which began at matter of leg = (frame, celerity, gamma of the legs before)."""
         if hit is None:
-            return self._background(ray, light_delay), ()
+            return self._background(ray, frame, light_delay, leg), ()
         diffuse, highlight, reached = ZERO, ZERO, []
         for light in self.scene.lights:
             if light.kind == "ambient":
@@ -90,12 +95,21 @@ class Shader:
             diffuse += received / mp.pi
             highlight += received * self._phong(hit, arriving)
         own = self.scene.number(hit.obj.material.get("emission", 0))
-        colour = self._numbers(hit.obj.material.get("color", [1, 1, 1]))
-        factor = ONE
+        colour = self._numbers(hit.obj.material.get("color", [0 if "mirror" in hit.obj.material else 1] * 3))
+        factor, gamma = ONE, ONE
         if light_delay:
-            gamma = gamma_between(hit.obj.frame, hit.celerity, camera, [ZERO] * 3)
+            gamma = leg[2] * gamma_between(hit.obj.frame, hit.celerity, leg[0], leg[1])
             factor = self.searchlight.factor(1 / abs(hit.ray[0]), gamma)
         rgb = [factor * (rho * diffuse + highlight + own) for rho in colour]
+        if "mirror" in hit.obj.material and passed < self.scene.bounces:
+            share = hit.obj.material["mirror"]
+            share = self._numbers(share) if isinstance(share, list) else [self.scene.number(share)] * 3
+            on = self.tracer.mirrored(hit, light_delay)
+            further = self.tracer.nearest(hit.obj.frame, hit.event, on, SELF)
+            seen, through = self._seen(further, hit.obj.frame, on, True, (hit.obj.frame, hit.celerity, gamma),
+                                       passed + 1)
+            rgb = [own_light + part * light for own_light, part, light in zip(rgb, share, seen)]
+            reached += through
         return rgb, tuple(reached)
 
     def _phong(self, hit, arriving):
@@ -113,14 +127,15 @@ class Shader:
         """RGB of a table as mpf."""
         return self.scene.vector(values)
 
-    def _background(self, ray, light_delay):
+    def _background(self, ray, frame, light_delay, leg):
         """The background's colour at infinity, carried from its frame to the camera."""
         colour = self._numbers(self.scene.background.get("color", [0, 0, 0]))
-        frame, camera = self.scene.background_frame, self.scene.camera.frame
+        sky = self.scene.background_frame
         factor = ONE
         if light_delay:
-            doppler = 1 / abs(self.tracer.carry(frame, camera, ray)[0])
-            factor = self.searchlight.factor(doppler, frame.gamma_relative_to(camera))
+            doppler = 1 / abs(self.tracer.carry(sky, frame, ray)[0])
+            gamma = leg[2] * gamma_between(sky, [ZERO] * 3, leg[0], leg[1])
+            factor = self.searchlight.factor(doppler, gamma)
         return scaled(colour, factor)
 
     def _irradiance(self, light, hit):

@@ -101,10 +101,10 @@ class Tracer:
                 for s, gradient, face in intersect(obj.shape, local_start, local_direction):
                     yield s, obj, gradient, face, start, direction
 
-    def nearest(self, frame, event, ray):
-        """The hit with the smallest s > 0, or None."""
+    def nearest(self, frame, event, ray, least=ZERO):
+        """The hit with the smallest s > `least`, or None."""
         best = min(((root[0], k, root) for k, root in enumerate(self.all_roots(frame, event, ray))
-                    if root[0] > 0), default=None)
+                    if root[0] > least), default=None)
         if best is None:
             return None
         s, obj, gradient, face, start, direction = best[2]
@@ -124,6 +124,32 @@ class Tracer:
         if dot(normal, ray[1:]) > 0:
             normal = scaled(normal, -ONE)
         return Hit(obj, s, event, ray, normal, face, celerity, obj.body.motion.own_time(point, event[0]))
+
+    def mirrored(self, hit, light):
+        """The traced four-vector that a mirror passes on, in the frame of its object: reflected in that of its matter.
+        Where no light travelled along the ray that met it (not `light`), light does from there on."""
+        space = along(hit.ray[1:], hit.normal, -2 * dot(hit.ray[1:], hit.normal))
+        ray = [hit.ray[0]] + space if light else [-ONE] + unit(space)
+        return apply(boost(scaled(hit.celerity, -ONE)), ray)
+
+    def seen_in_mirror(self, hit, light):
+        """({values}, signature) of what is seen in a mirror, at the end of the way through all of them."""
+        camera = self.scene.camera.frame
+        distance, signature = hit.s, ()
+        for _ in range(self.scene.bounces):
+            frame, event, ray = hit.obj.frame, hit.event, self.mirrored(hit, light)
+            light = True
+            hit = self.nearest(frame, event, ray, SELF)
+            if hit is None:
+                sky = self.carry(self.scene.background_frame, frame, ray)
+                return {"mirrorD": [1 / abs(sky[0])]}, signature + ((0, 0, 0),)
+            distance += hit.s * abs(self.carry(camera, frame, ray)[0])
+            signature += (hit.signature(),)
+            if "mirror" not in hit.obj.material:
+                break
+        world = hit.obj.frame.event_to_world(hit.event)
+        return {"mirrorZ": [distance], "mirrorD": [1 / abs(hit.ray[0])],
+                "mirrorT": [world[0] / self.scene.c]}, signature
 
     def blocked(self, frame, event, ray, end):
         """Whether anything lies on event + s ray for 0 < s < end (None: no end)."""

@@ -2,6 +2,7 @@
 // and lines".
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "backlight/colour/spectrum.h"
@@ -22,6 +23,17 @@ struct FilmQuadrature {
 /// where the light is not zero.
 LinearRgb integrate_film(const Spectrum& light, double shift, const Spectrum* reflectance = nullptr,
                          double reflectance_shift = 1.0);
+
+/// What takes a share of the light on its way: a reflectance or a transmittance, and at how many times the
+/// camera's wavelengths.
+struct Filter {
+  const Spectrum* spectrum;
+  double shift;
+  double power = 1.0;  ///< of the share
+};
+
+/// The same under the product of several.
+LinearRgb integrate_film(const Spectrum& light, double shift, std::span<const Filter> filters);
 
 /// The same as a rule for any smooth reflectance at rest.
 FilmQuadrature film_quadrature(const Spectrum& light);

@@ -23,6 +23,7 @@ enum class ModelReason {
   background_moves,  ///< relative to the camera
   object_moves,      ///< relative to the camera
   light_moves,       ///< relative to an object
+  mirror_moves,      ///< relative to what it shows
   only_stars_shift,  ///< whose colours are found once an image
   nothing_moves,
   effects_off  ///< something moves, and the effects show no shift of colours

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "backlight/base/shared_vector.h"
@@ -89,12 +90,21 @@ struct Material {
   std::shared_ptr<const Texture> texture;  ///< reflectance from an image, or null
   std::optional<double> uv;  ///< of a texture: level at 300 nm and below, see Spectrum::reflectance
   std::optional<double> ir;  ///< of a texture: level at 890 nm and above
-  std::shared_ptr<const Checker> checker;         ///< or null
-  double specular = 0.0;                          ///< Phong: the share of the light reflected by the lobe
-  double shininess = 50.0;                        ///< Phong: the lobe's exponent
-  std::shared_ptr<const Colour> emission;         ///< own radiance, at rest to itself; null: it emits nothing
+  std::shared_ptr<const Checker> checker;  ///< or null
+  double specular = 0.0;                   ///< Phong: the share of the light reflected by the lobe
+  double shininess = 50.0;                 ///< Phong: the lobe's exponent
+  std::shared_ptr<const Colour> emission;  ///< own radiance, at rest to itself; null: it emits nothing
+  std::shared_ptr<const Colour> mirror;    ///< the share of light that is reflected as by a mirror, or null
   std::shared_ptr<const MaterialInTime> in_time;  ///< null: nothing of it changes
 };
+
+/// Whether what comes in is passed on, besides what the material shows of its own.
+inline bool passes_on(const Material& material) {
+  return material.mirror != nullptr;
+}
+
+/// Whether a material shows anything of its own: it reflects diffusely, or with a lobe, or emits.
+bool has_own_light(const Material& material);
 
 enum class LightKind { point, distant, ambient };
 
@@ -206,6 +216,7 @@ struct FilmSettings {
   bool adaptive = false;  ///< the samples of each pixel are chosen to meet `tolerance`
   int wavelengths = 0;    ///< where colours shift; 0: for the program to choose
   double exposure = 1.0;  ///< on all film values; the colours of the scene's lights have it already
+  int bounces = 8;        ///< how often the light of a ray is passed on at most
 };
 
 /// What was made for an image, and what it took over from images before, unchanged.
@@ -231,6 +242,13 @@ struct Scene {
   FilmSettings film;
   CompileCounts counts;
 };
+
+/// Whether matter of the object, or of an object of the frame, passes light on.
+bool passes_on(const Scene& scene, const Object& object);
+bool passes_on(const Scene& scene, const SceneFrame& frame);
+
+/// Whether the film asks for this of `aovs`.
+bool has_aov(const Scene& scene, std::string_view name);
 
 /// The effects in force at an image point (pixels of the full image).
 const Effects& effects_at(const Scene& scene, const ImagePoint& point);

@@ -1,4 +1,5 @@
-// The hub: every frame relative to the camera's event, composed once an image.
+// The hub: every frame relative to the camera's event, composed once an image. Rays that a mirror passes on
+// have one of their own (relays.h), for which its frame stands in the camera's place.
 //
 // docs/physics.md section 6. A ray costs one boost of a direction per frame, a hit in a frame is
 // camera_event + λ k there, and no number of a ray ever goes through world coordinates: clocks of 10⁹ and
@@ -8,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "backlight/base/shared_vector.h"
 #include "backlight/scene/scene.h"
 #include "backlight/spacetime/transform.h"
 
@@ -52,13 +54,23 @@ struct LightView {
 /// All of them, for one camera event.
 struct Hub {
   std::vector<FrameView> frames;                   ///< by frame index; [0] is the world
-  std::vector<LightView> lights;                   ///< by light index
+  SharedVector<LightView> lights;                  ///< by light index
   std::vector<int> occupied;                       ///< indices of frames with surfaces, ascending
   Search search = Search::tree;                    ///< how single rays look through surfaces
   LorentzTransform<Camera, Rest> camera_from_sky;  ///< for what shines forward from infinity: the stars
 };
 
-/// Composes the hub in extended precision.
+/// From where a hub is seen: the camera's celerity and event in the world, or those of a frame that passes
+/// light on.
+struct Viewpoint {
+  ExtendedVec3 celerity;
+  ExtendedEvent event;
+};
+
+/// Composes the camera's hub in extended precision.
 Hub make_hub(const Scene& scene, const ModelPieces& pieces = {}, Search search = Search::tree);
+
+/// The hub of another viewpoint of the same scene: it shares the lights of `camera`.
+Hub make_hub(const Scene& scene, const Hub& camera, const Viewpoint& viewpoint, const ModelPieces& pieces);
 
 }  // namespace backlight

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "backlight/colour/film_integral.h"
 #include "backlight/colour/reflected_light.h"
 #include "backlight/trace/illumination.h"
 #include "backlight/trace/rest_colours.h"
@@ -16,6 +17,8 @@ struct RayCounts {
   std::uint64_t single = 0;      ///< of those, which did not go in sheets: one at a time
   std::uint64_t shadow = 0;      ///< segments to lamps that were tested
   std::uint64_t data = 0;        ///< pixel-centre rays for the data channels alone
+  std::uint64_t passed_on = 0;   ///< rays that go on from a mirror
+  std::uint64_t ended = 0;       ///< of those, the ones that FilmSettings::bounces ended
   std::uint64_t non_finite = 0;  ///< pixels with a NaN or an infinity
   /// Camera rays that see a root which could not be isolated to full precision (surface/implicit.h).
   std::uint64_t unresolved = 0;
@@ -26,6 +29,8 @@ struct RayCounts {
     single += more.single;
     shadow += more.shadow;
     data += more.data;
+    passed_on += more.passed_on;
+    ended += more.ended;
     non_finite += more.non_finite;
     unresolved += more.unresolved;
     roots += more.roots;
@@ -46,6 +51,8 @@ struct Scratch {
   std::vector<double> reflectance;
   std::vector<double> lamp;  ///< room for what a lamp takes
   Spectrum texel;            ///< the reflectance of a point of a texture
+  std::vector<Filter>
+      filters;  ///< that shifted light goes through on its way to the camera: coloured mirrors
   ReflectedLight reflected;
 };
 

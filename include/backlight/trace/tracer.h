@@ -4,9 +4,19 @@
 #include <limits>
 #include <optional>
 
+#include "backlight/trace/relays.h"
 #include "backlight/trace/sky.h"
 
 namespace backlight {
+
+/// What is seen in a mirror: by the ray that goes on from it, from mirror to mirror, where that ends.
+struct MirrorRecord {
+  int object_id = 0;  ///< as of SurfaceRecord
+  /// Light-travel distance along the whole way, camera frame; infinite where it ends at no surface
+  double distance = std::numeric_limits<double>::infinity();
+  double doppler = 0.0;        ///< ω_camera/ω_object
+  double emission_time = 0.0;  ///< world time, scene seconds
+};
 
 /// What is known of the surface that a ray meets, as written to the EXR's data channels
 /// (docs/scene-reference.md). Zero where it meets none, but for the distance and the sky's Doppler factor.
@@ -22,6 +32,7 @@ struct SurfaceRecord {
   Vec3 normal{0.0};            ///< N, facing the ray, in the object's rest frame
   int lamps = -1;              ///< lights that reach the point, own emission one of them; -1: no surface
   double unshifted = 0.0;      ///< luminance of the film colour, had no wavelength been shifted on its way
+  MirrorRecord mirror;         ///< if it is a mirror, and the film has the channels
 };
 
 /// What a ray brings.
@@ -29,6 +40,8 @@ struct RayLight {
   LinearRgb colour{0.0};  ///< scene-linear film colour, stars apart
   bool opaque = false;    ///< it met a surface, or a background that the scene gives: for alpha
 };
+
+struct Leg;
 
 /// Traces rays of one image. Immutable; each thread brings its own Scratch.
 class Tracer {
@@ -72,8 +85,20 @@ class Tracer {
   [[nodiscard]] bool has_stars() const { return !stars_.empty(); }
 
  private:
+  // path.cpp: the colour along a leg of a ray's way, of which it is known what it meets first.
+  LinearRgb colour_along(const Leg& leg, const FirstHit& hit, const Effects& effects, bool shifted,
+                         Scratch& scratch) const;
+  LinearRgb colour_mirrored(Leg& leg, const Colour& share, DopplerFactor<Camera, Rest> doppler,
+                            const Effects& effects, bool shifted, Scratch& scratch) const;
+  [[nodiscard]] Leg mirrored(const Leg& leg, const SeenPoint& point, DopplerFactor<Camera, Rest> doppler,
+                             const RayInFrames& rays) const;
+  MirrorRecord seen_in_mirror(const CameraRay& ray, const FirstHit& first, Scratch& scratch) const;
+  [[nodiscard]] const Material& material_at(const SeenPoint& point) const;
+  [[nodiscard]] const Hub& hub_of(const Leg& leg) const;
+
   const Scene* scene_;
   Hub hub_;
+  Relays relays_;
   RestColours rest_colours_;
   const WavelengthSet* wavelengths_;
   SceneSpectra spectra_;  // where colours are shifted

@@ -32,9 +32,13 @@ int material_of(const Scene& scene, const FirstHit& hit, const SurfacePoint& poi
 /// first_hit() asks for all frames with surfaces; any other frame is boosted when first asked for.
 class RayInFrames {
  public:
-  explicit RayInFrames(const Hub& hub) : hub_(&hub), events_(hub.frames.size()), age_(hub.frames.size(), 0) {}
+  explicit RayInFrames(const Hub& hub)
+      : camera_(&hub), hub_(&hub), events_(hub.frames.size()), age_(hub.frames.size(), 0) {}
 
-  void start(const CameraRay& ray) {
+  void start(const CameraRay& ray) { start(*camera_, ray); }
+  /// A ray of another hub of the same scene.
+  void start(const Hub& hub, const CameraRay& ray) {
+    hub_ = &hub;
     ray_ = ray;
     ++current_;
   }
@@ -66,6 +70,7 @@ class RayInFrames {
   }
 
  private:
+  const Hub* camera_;
   const Hub* hub_;
   CameraRay ray_;
   std::vector<RestRayEvents> events_;

@@ -1,0 +1,126 @@
+// Mirrors: sheets give the law's bits, whatever the threads and the crop.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "rendering.h"
+
+namespace backlight::test {
+namespace {
+
+std::size_t different_values(const Image& a, const Image& b) {
+  std::size_t different = 0;
+  for (std::size_t channel = 0; channel < a.channel_count(); ++channel) {
+    const auto x = a.plane(channel), y = b.plane(channel);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      different += std::memcmp(&x[i], &y[i], sizeof x[i]) != 0 ? 1 : 0;
+  }
+  return different;
+}
+
+// Mirrors of every kind of shape, coloured and grey, at rest, passing, fast and turning.
+std::string scene(const std::string& film, const std::string& camera, const std::string& more = {}) {
+  return "[film]\nresolution = [72, 48]\nbounces = 4\n"
+         "aovs = [\"Z\", \"doppler\", \"objectId\", \"N\", \"mirror\", \"emissionTime\"]\n" +
+         film + "\n[camera]\nposition = [0, 1.4, -7]\ndirection = [0, -0.12, 1]\n" + camera + R"toml(
+[background]
+color = [0.2, 0.3, 0.5]
+[[light]]
+position = [3, 7, -4]
+intensity = 160
+[[light]]
+position = [-5, 6, -2]
+beta = [0.4, 0, 0.2]
+intensity = 90
+color = [1, 0.7, 0.3]
+[[object]]
+shape = "plane"
+position = [0, -1, 0]
+material = { color = [0.5, 0.5, 0.4], mirror = 0.4, specular = 0.2 }
+[[object]]
+shape = "box"
+size = [2, 3, 0.2]
+position = [-3, 1, 3]
+rotate = [0, 35, 0]
+beta = [0.3, 0.1, -0.2]
+material = { mirror = [0.9, 0.7, 0.5] }
+[[object]]
+shape = "sphere"
+radius = 0.9
+position = [0.2, 0.2, 1]
+rotate = [0, 0, "30*t"]
+scale = [1, 1.2, 1]
+material = { mirror = 0.8 }
+[[object]]
+shape = "difference"
+position = [2.4, 0.4, 2]
+[[object.part]]
+shape = "box"
+size = [1.6, 1.6, 1.6]
+material = { color = [0.7, 0.2, 0.1] }
+[[object.part]]
+shape = "sphere"
+radius = 0.9
+position = [0, 0.2, -0.8]
+material = { mirror = 0.95 }
+[[object]]
+shape = "implicit"
+f = "x^2 + y^2 + z^2 - 0.5 + 0.1*sin(5*x)"
+bounds = [[-1, -1, -1], [1, 1, 1]]
+position = [-1.8, 0, -0.5]
+material = { mirror = 0.7 }
+[[object]]
+shape = "torus"
+major = 0.6
+minor = 0.25
+position = [1.6, 1.8, 0]
+rotate = [60, 0, 20]
+gamma = 50
+along = [0, 0, 1]
+material = { mirror = 0.9 }
+[[object]]
+shape = "sphere"
+radius = 0.5
+position = [-0.4, 1.9, 0.4]
+material = { emission = 0.8, emission_color = [0.3, 1, 0.5] }
+)toml" + more;
+}
+
+void expect_the_law(const std::string& text) {
+  RenderChoices law;
+  law.path = RayPath::one_by_one;
+  const Rendering a = render_text(text, law), b = render_text(text);
+  EXPECT_GT(b.statistics.rays.passed_on, 300U);
+  EXPECT_EQ(a.statistics.rays.passed_on, b.statistics.rays.passed_on);
+  EXPECT_EQ(a.statistics.rays.ended, b.statistics.rays.ended);
+  EXPECT_EQ(different_values(a.image, b.image), 0U);
+}
+
+TEST(Mirrors, AreTheLawInSheets) {
+  expect_the_law(scene("", ""));
+  expect_the_law(scene("samples = 3", "beta = [0.2, 0.1, 0.4]"));
+  expect_the_law(scene("", "beta = [0.2, 0.1, 0.4]", "[effects]\ndoppler = false\n"));
+  expect_the_law(scene("", "projection = \"equirectangular\"", "[effects]\nsearchlight = \"paper\"\n"));
+  expect_the_law(scene("", "stereo = { separation = 0.3 }",
+                       "[[effects.region]]\nrect = [0.2, 0.2, 0.7, 0.8]\nlight_delay = false\n"));
+  expect_the_law(scene("", "gamma = 200\nalong = [0, 0, 1]"));
+}
+
+TEST(Mirrors, AreTheSameBitsForAnyThreadsAndCrop) {
+  const std::string text = scene("", "beta = [0.2, 0.1, 0.4]");
+  RenderChoices one, three, part;
+  one.threads = 1;
+  three.threads = 3;
+  part.crop = PixelBox{11, 7, 52, 39};
+  const Rendering a = render_text(text, one), b = render_text(text, three), c = render_text(text, part);
+  EXPECT_EQ(different_values(a.image, b.image), 0U);
+  for (int y = 7; y < 39; ++y) {
+    for (int x = 11; x < 52; ++x) {
+      for (const char* channel : {"R", "G", "B", "mirror.D", "mirror.T"})
+        ASSERT_EQ(a.at(channel, x, y), c.at(channel, x, y)) << channel << ' ' << x << ',' << y;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace backlight::test
