@@ -98,6 +98,7 @@ figure fig6b-real-stars fig6b-real-stars
 figure cosmic-background cosmic-background
 figure fig7-tram-shadow fig7-tram-shadow -- --tone reinhard --white 8 --exposure 0.5
 figure terrell-row terrell-row
+figure teapot-0.9c teapot-0.9c
 figure algebraic-rest algebraic-rest -- --exposure 0 --tone none
 figure algebraic-0.9c algebraic-0.9c -- --exposure 0 --tone none
 figure stability-nodes stability-nodes -- --exposure 0 --tone none

@@ -211,8 +211,9 @@ class ObjectCompiler {
       return add_in_motion(index, keys, static_cast<int>(frame_of_group_[group]), *compiled, lattice,
                            *builder);
     }
-    builder->add_copies(index, compiled->shape, placement.around(Placement(compiled->centre)), lattice,
-                        rotate, c_.request.outline, keys.boolean("casts_shadow"));
+    const Vec3 centre = placement.position() + placement.rest_from_local() * compiled->centre;
+    builder->add_copies(index, compiled->shape, Placement(centre, rotate, placement.scale()), lattice, rotate,
+                        c_.request.outline, keys.boolean("casts_shadow"));
     if (!is_infinite(compiled->shape) && !(builder->surfaces.bounds(first).radius <= greatest_composed)) {
       keys.error("shape", "it is larger than " + number_text(greatest_composed) + ", all scales together");
     }
