@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a group of tasks needs, and only those that are missing.
 #
-#   scripts/install.sh [build] [test] [ci] [bench] [charts] [oracle] [farm] [blender] [package]      (default: build)
+#   scripts/install.sh [build] [test] [ci] [bench] [charts] [docs] [oracle] [farm] [blender] [package]      (default: build)
 #
 #   build    compiler, CMake and libraries: what scripts/render.sh needs
 #   test     what the tests need besides
 #   ci       the second compiler and the formatter of .ci/run
 #   bench    what scripts/bench.sh measures beside: POV-Ray, Embree; and kernel benchmarks
 #   charts   what scripts/gallery.sh and the charts of docs/ need besides
+#   docs     what scripts/course.sh needs besides
 #   farm     a Slurm for this machine alone, GNU parallel and ffmpeg: what tests/farm/run.sh needs
 #   blender  Blender, on which the test of its exporter is skipped otherwise: 600 MB
 #   package  what scripts/package.sh needs besides, and its test: pandoc, lintian, debootstrap
@@ -18,9 +19,10 @@ set -euo pipefail
 
 declare -A packages=(
   [build]="g++ cmake ninja-build pkgconf libopenexr-dev libopenimageio-dev libassimp-dev libtinyobjloader-dev libglm-dev libtomlplusplus-dev libcli11-dev"
-  [test]="libgtest-dev nlohmann-json3-dev chromium ffmpeg openimageio-tools libmpfr-dev libgmp-dev python3 python3-jsonschema python3-fastjsonschema python3-numpy python3-openimageio mandoc man-db bsdextrautils zsh"
+  [test]="libgtest-dev nlohmann-json3-dev chromium ffmpeg openimageio-tools libmpfr-dev libgmp-dev pandoc python3 python3-jsonschema python3-fastjsonschema python3-numpy python3-openimageio mandoc man-db bsdextrautils zsh"
   [ci]="clang-14 libclang-rt-14-dev clang-format-14"
   [bench]="libbenchmark-dev libembree-dev libmpfr-dev povray python3 util-linux"
+  [docs]="pandoc openimageio-tools python3"
   [charts]="gnuplot-nox openimageio-tools python3 fonts-dejavu-core"
   [farm]="slurmctld slurmd slurm-client munge parallel ffmpeg"
   [package]="pandoc python3 dpkg-dev file lintian debootstrap"
@@ -31,7 +33,7 @@ declare -A packages=(
 wanted=()
 for group in "${@:-build}"; do
   if [[ -z ${packages[$group]:-} ]]; then
-    echo "scripts/install.sh: no group '$group'; there are: build test ci bench charts farm oracle blender package" >&2
+    echo "scripts/install.sh: no group '$group'; there are: build test ci bench charts docs farm oracle blender package" >&2
     exit 2
   fi
   read -ra names <<<"${packages[$group]}"
