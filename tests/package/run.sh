@@ -28,7 +28,7 @@ chmod 755 "$work"
 fail() { echo "tests/package/run.sh: $*" >&2 && exit 1; }
 
 if [[ -z $package ]]; then
-  "$top/scripts/package.sh" "$work/made"
+  "$top/scripts/package.sh" --without-course "$work/made"
   package=$(echo "$work"/made/backlight_*.deb)
 fi
 
