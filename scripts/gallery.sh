@@ -124,6 +124,9 @@ sheet wheel-ant wheel-ant 1-61x12 3 -r 240x175
 figure ehrenfest ehrenfest
 figure turning-earth turning-earth
 figure saturn saturn
+figure mirror-hall mirror-hall
+figure einstein-mirror einstein-mirror
+figure mirror-ball-street mirror-ball-street
 sheet circling-lamp circling-lamp 1-131x26 3 -r 240x175
 sheet bell-rockets bell-rockets 1-37x12 2 -r 360x131 -s 4
 figure rindler-bow rindler-rocket -r 360x263 --camera bow
