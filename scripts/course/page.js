@@ -8,7 +8,8 @@ const element = (name, properties, ...children) => {
   made.append(...children);
   return made;
 };
-const number = value => String(Number(value.toPrecision(4))).replace("-", "−");
+// Four figures; what is less than a float's rounding is none.
+const number = value => (Math.abs(value) < 1e-6 ? "0" : String(Number(value.toPrecision(4)))).replace("-", "−");
 const told = (row, value) => {
   if (value === null || value === undefined) return row === "object" ? "the sky" : "–";
   if (row === "colour") return number(0.2126 * value[0] + 0.7152 * value[1] + 0.0722 * value[2]);

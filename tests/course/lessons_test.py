@@ -173,8 +173,8 @@ def blocks(text):
 
 
 def tables(text):
-    """The rows of the table in the answer: name, image, pixel, row of the probe, what it says."""
-    rows = re.findall(r"^\| ([A-C]) \| (\S+\.exr) \| (\d+,\d+) \| (.*?) \| (.*?) \|$", text, re.M)
+    """The rows of the table in the answer: name, row of the probe, what it says, image, pixel."""
+    rows = re.findall(r"^\| ([A-C]) \| (.*?) \| (.*?) \| (\S+\.exr) \| (\d+,\d+) \|$", text, re.M)
     assert len(rows) == len(re.findall(r"^\| [A-Z][^|]*\|.*\.exr", text, re.M)), "a row of the table is not understood"
     return rows
 
@@ -212,7 +212,7 @@ class Lessons(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(done.stderr, "")
         left = dict(EXPECTED[number]())
-        for name, image, pixel, row, says in tables(text):
+        for name, row, says, image, pixel in tables(text):
             with self.subTest(name=name, image=image, pixel=pixel, row=row):
                 column, line = map(int, pixel.split(","))
                 self.assertEqual(line, 180)
