@@ -19,6 +19,7 @@ export SOURCE_DATE_EPOCH
 tests=OFF
 grep -qs '^BACKLIGHT_TESTS:BOOL=ON' build/release/CMakeCache.txt && tests=ON
 cmake --preset release -DBACKLIGHT_TESTS=$tests
+rm -f build/release/manual/made  # those of an ordinary build have no date
 cmake --build --preset release --target backlight backlight_oiio backlight_models manual documents
 if [[ $course == yes ]]; then
   BACKLIGHT=build/release/bin/backlight scripts/course.sh -o build/release/course.html
