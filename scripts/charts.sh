@@ -15,6 +15,7 @@
 #             e  the dial: tolerance asked for, error delivered, time (measured together with d)
 #             f  cost by the number of objects, pixels and threads, and of real scenes
 #             g  each piece of the model left out: cost and error
+#             h  polygons with their corners at their apparent places, beside rays
 #
 # MEASURE_WITH, if set, is a command to be put before each measuring program, such as 'nice -n -5'; CHART_PROGRAMS a folder with the
 # measuring programs, which are then not built.
@@ -36,12 +37,12 @@ while (($#)); do
       shift
       ;;
     --draw) draw_only=yes ;;
-    [a-g]) charts+=("$argument") ;;
-    -h | --help) sed -n '2,20s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    *) sed -n '2,20s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    [a-h]) charts+=("$argument") ;;
+    -h | --help) sed -n '2,21s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    *) sed -n '2,21s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
-((${#charts[@]})) || charts=(a b c d e f g)
+((${#charts[@]})) || charts=(a b c d e f g h)
 
 out=docs/charts
 flag=()
@@ -64,7 +65,7 @@ begin=$SECONDS
 if [[ $draw_only == no ]]; then
   [[ -n ${CHART_PROGRAMS:-} ]] || scripts/install.sh build bench charts || echo "charts.sh: going on without what is missing" >&2
   [[ -n ${CHART_PROGRAMS:-} ]] || cmake --preset bench >/dev/null
-  [[ -n ${CHART_PROGRAMS:-} ]] || cmake --build --preset bench --target chart_ablation chart_arithmetic chart_dial chart_roots chart_scaling chart_wavelengths
+  [[ -n ${CHART_PROGRAMS:-} ]] || cmake --build --preset bench --target chart_ablation chart_arithmetic chart_dial chart_polygons chart_roots chart_scaling chart_wavelengths
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -113,10 +114,11 @@ measure_chart() {
     g)
       for figure in "${figures[@]}" "${fast[@]}"; do measure chart_ablation "${flag[@]}" "$figure"; done | joined "$out/ablation.csv"
       ;;
+    h) measure chart_polygons "${flag[@]}" | joined "$out/polygons.csv" ;;
   esac
 }
 
-declare -A drawing=([a]=roots [b]=arithmetic [c]=wavelengths [d]=sampling [e]=dial [f]=scaling [g]=ablation)
+declare -A drawing=([a]=roots [b]=arithmetic [c]=wavelengths [d]=sampling [e]=dial [f]=scaling [g]=ablation [h]=polygons)
 for chart in "${charts[@]}"; do
   echo "chart $chart: ${drawing[$chart]}" >&2
   [[ $draw_only == yes ]] || measure_chart "$chart"

@@ -203,7 +203,23 @@ def dial(folder):
     return table(("asked", "times as fast as even samples of the same error: median", "least", "most", "delivered / asked: median", "most"), lines)
 
 
-TABLES = {"dial": dial, "roots": roots, "arithmetic": arithmetic, "wavelengths": wavelengths, "sampling": sampling, "objects": objects,
+def polygons(folder):
+    """The first number of triangles by which what 99 % of the pixels show is right to a tenth of a pixel."""
+    lines = []
+    all_rows = rows(folder, "polygons")
+    for beta in dict.fromkeys(row["beta"] for row in all_rows):
+        of_speed = [row for row in all_rows if row["beta"] == beta]
+        rays = next(row for row in of_speed if row["method"] == "rays")
+        drawn = [row for row in of_speed if row["method"] == "polygons"]
+        good = next((row for row in drawn if float(row["percentile99_pixels"]) <= 0.1), drawn[-1])
+        fair = next((row for row in drawn if float(row["wrong_share"]) <= 0.001), drawn[-1])
+        milli = lambda row: f"{short(1000 * float(row['cpu_seconds']))} ms"
+        lines.append((f"{beta} c", thousands(good["triangles"]), milli(good), f"{100 * float(good['wrong_share']):.2g} %",
+                      thousands(fair["triangles"]), milli(fair), milli(rays)))
+    return table(("speed", "triangles for 0.1 pixel within bodies", "time", "outlines wrong then", "triangles for outlines right to 0.1 %", "time", "rays"), lines)
+
+
+TABLES = {"dial": dial, "polygons": polygons, "roots": roots, "arithmetic": arithmetic, "wavelengths": wavelengths, "sampling": sampling, "objects": objects,
           "pixels": pixels, "scenes": scenes, "threads": threads, "ablation": ablation, "beside": beside}
 
 

@@ -129,7 +129,8 @@ class ShapeReader {
       } else {
         tree.member = operation ? 0 : member(material);
       }
-      tree.placement = tree.placement.around(Placement(centre_of(tree.shape)));
+      if (centre_of(tree.shape) != Vec3{0.0})
+        tree.placement = tree.placement.around(Placement(centre_of(tree.shape)));
       if (tree.shape.mesh && !tree.shape.mesh->is_closed()) {
         table.error("shape",
                     "the mesh is not closed, and cannot be part of a solid: not each of its edges is that of "

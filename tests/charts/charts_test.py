@@ -20,10 +20,11 @@ SURE = {  # columns that are there, and rows that there are at least
     "pixels": (("motion", "pixels", "cpu_seconds"), 8),
     "scenes": (("scene", "surfaces", "frames", "colours", "pixels", "cpu_seconds"), 6),
     "threads": (("scene", "threads", "wall_seconds", "speed_up"), 2),
+    "polygons": (("beta", "method", "triangles", "cpu_seconds", "wrong_share", "rms_pixels", "percentile99_pixels"), 12),
     "ablation": (("scene", "left_out", "cpu_seconds", "times_whole", "rms"), 22),
 }
 FINITE = ("cpu_seconds", "rms", "times_whole", "times_rgb", "samples", "rays_per_second", "speed_up", "mean")
-PICTURES = ("roots", "arithmetic", "wavelengths", "sampling", "dial", "scaling", "ablation")
+PICTURES = ("roots", "arithmetic", "wavelengths", "sampling", "dial", "scaling", "ablation", "polygons")
 
 
 def expect(is_so, what):
