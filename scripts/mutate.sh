@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Tries mutated scenes, images, textures and tables of numbers, with the address and undefined-behaviour
+# Tries mutated scenes, images, textures, tables of numbers and meshes, with the address and undefined-behaviour
 # sanitizers: none may crash, take over 10 s or over 2 GB.
 #
-#   scripts/mutate.sh [COUNT] [SEED] [KIND...]        (of each; default: 100000 1 scene image texture table)
+#   scripts/mutate.sh [COUNT] [SEED] [KIND...]        (of each; default: 100000 1 scene image texture table mesh)
 #
 # The same seed makes the same inputs. One that fails is left in build/asan/found; put it into
 # tests/fuzz/corpus/KIND, from where ctest runs it for ever. Exits 1 when one was found.
@@ -15,7 +15,7 @@ seed=${2:-1}
 need_whole_numbers "$count" "$seed"
 shift $(($# < 2 ? $# : 2))
 kinds=("$@")
-((${#kinds[@]})) || kinds=(scene image texture table)
+((${#kinds[@]})) || kinds=(scene image texture table mesh)
 
 scripts/install.sh build test
 cmake --preset asan >/dev/null
@@ -30,7 +30,8 @@ for kind in "${kinds[@]}"; do
     image) files=("$seeds"/*.exr) ;;
     texture) files=("$seeds"/texture.*) ;;
     table) files=("$seeds"/*.csv) ;;
-    *) echo "scripts/mutate.sh: '$kind' is none of scene, image, texture and table" >&2; exit 2 ;;
+    mesh) files=("$seeds"/mesh*) ;;
+    *) echo "scripts/mutate.sh: '$kind' is none of scene, image, texture, table and mesh" >&2; exit 2 ;;
   esac
   echo "=== $kind"
   "$program" "$kind" "$count" "$seed" "build/asan/found/$kind" "${files[@]}" || result=1

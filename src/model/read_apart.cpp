@@ -1,5 +1,6 @@
 #include "read_apart.h"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -151,7 +152,10 @@ void fill(const SharedModel& shared, const Head& head, BacklightModel& model, Sh
   model.left_out = head.left_out;
 }
 
-constexpr rlim_t most_seconds = 600;  // of the processor
+/// Of the processor: some, and one for each megabyte. assimp reads some damaged files for ever.
+rlim_t most_seconds(std::uintmax_t file_size) {
+  return 5 + static_cast<rlim_t>(file_size / 1'000'000);
+}
 
 /// The data of this process, in bytes.
 std::uint64_t data_size() {
@@ -173,8 +177,9 @@ void limit(std::uintmax_t file_size) {
 #if !defined(__SANITIZE_ADDRESS__)
   set(RLIMIT_DATA, data_size() + besides + times_file * file_size);
 #endif
-  set(RLIMIT_CPU, most_seconds);
+  set(RLIMIT_CPU, most_seconds(file_size));
   set(RLIMIT_CORE, 0);
+  if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, 2);  // what assimp asserts
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGINT, SIGHUP, SIGXCPU})
     std::signal(signal, SIG_DFL);
 }
@@ -218,7 +223,7 @@ std::unique_ptr<SharedModel> read_apart(const std::function<Read()>& read, std::
     if (errno != EINTR) fail("the process that reads it is lost");
   }
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-    throw std::runtime_error("it takes more than " + std::to_string(most_seconds) + " s to read");
+    throw std::runtime_error("it takes more than " + std::to_string(most_seconds(file_size)) + " s to read");
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) throw std::runtime_error("its reader was killed");
   auto shared = file.map();
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || !shared)

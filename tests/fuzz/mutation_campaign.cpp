@@ -3,8 +3,8 @@
 //   mutation_campaign KIND COUNT SEED FOUND FILE...    COUNT inputs made of the files; what fails is left in
 //   FOUND mutation_campaign KIND replay FOLDER               the inputs of a folder as they are
 //
-// KIND is scene, image, texture or table. Exits 1 when an input failed. Inputs are tried in a process of
-// their own, a batch in each.
+// KIND is scene, image, texture, table or mesh. Exits 1 when an input failed. Inputs are tried in a process
+// of their own, a batch in each.
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <sys/wait.h>
@@ -43,7 +43,8 @@ constexpr long most_kibibytes = 2L << 20;
 const std::map<std::string, fuzz::Kind> kinds{{"scene", fuzz::Kind::scene},
                                               {"image", fuzz::Kind::image},
                                               {"texture", fuzz::Kind::texture},
-                                              {"table", fuzz::Kind::table}};
+                                              {"table", fuzz::Kind::table},
+                                              {"mesh", fuzz::Kind::mesh}};
 
 struct Seed {
   fs::path file;
@@ -73,6 +74,9 @@ std::string mutated(fuzz::Kind kind, const Seed& seed, const Seed& other, fuzz::
     case fuzz::Kind::scene:
       return fuzz::mutated_scene(seed.bytes, other.bytes, random);
     case fuzz::Kind::table:
+      return fuzz::mutated_table(seed.bytes, other.bytes, random);
+    case fuzz::Kind::mesh:
+      if (seed.file.extension() != ".obj" || random.one_in(2)) break;
       return fuzz::mutated_table(seed.bytes, other.bytes, random);
     case fuzz::Kind::image:
     case fuzz::Kind::texture:
@@ -130,10 +134,12 @@ int campaign(fuzz::Kind kind, std::size_t count, std::uint64_t seed, const fs::p
         fuzz::Random random(seed + 0x9e3779b97f4a7c15ULL * (i + 1));  // each input of its own number alone
         const Seed& from = random.of(seeds);
         const std::string input = mutated(kind, from, random.of(seeds), random);
+        // Meshes are read by the endings of their names.
+        const std::string ending = kind == fuzz::Kind::mesh ? from.file.extension().string() : "";
         watch();
-        put(current, input);
-        put(place, std::to_string(i));
-        fuzz::try_input(kind, current, folder_of(from.file));
+        put(current.string() + ending, input);
+        put(place, std::to_string(i) + ending);
+        fuzz::try_input(kind, current.string() + ending, folder_of(from.file));
         require_little_memory();
       }
     });
@@ -141,14 +147,17 @@ int campaign(fuzz::Kind kind, std::size_t count, std::uint64_t seed, const fs::p
       begin = end;
       continue;
     }
-    const std::size_t at = std::strtoull(read_file(place).value().c_str(), nullptr, 10);
+    const std::string last = read_file(place).value();
+    char* ending = nullptr;
+    const std::size_t at = std::strtoull(last.c_str(), &ending, 10);
     ++failures;
-    const fs::path kept = found / ("seed-" + std::to_string(seed) + "-input-" + std::to_string(at));
-    fs::copy_file(current, kept, fs::copy_options::overwrite_existing);
+    const fs::path kept = found / ("seed-" + std::to_string(seed) + "-input-" + std::to_string(at) + ending);
+    fs::copy_file(current.string() + ending, kept, fs::copy_options::overwrite_existing);
     std::fprintf(stderr, "%s: %s\n", kept.c_str(), ended.c_str());
     begin = std::max(begin, at) + 1;
   }
-  fs::remove(current);
+  for (const char* ending : {"", ".obj", ".ply", ".stl", ".gltf", ".glb"})
+    fs::remove(current.string() + ending);
   fs::remove(place);
   std::printf("%zu inputs tried, %zu failed\n", count, failures);
   return failures == 0 ? 0 : 1;

@@ -1,6 +1,7 @@
 #include "mutation_targets.h"
 
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -8,6 +9,7 @@
 #include "backlight/film/assemble.h"
 #include "backlight/film/compare.h"
 #include "backlight/film/display.h"
+#include "backlight/model/model_file.h"
 #include "backlight/render/image_faults.h"
 #include "backlight/render/image_identity.h"
 #include "backlight/render/partial_file.h"
@@ -16,6 +18,7 @@
 #include "backlight/scene/explain.h"
 #include "backlight/scene/needs.h"
 #include "backlight/scene/reader.h"
+#include "backlight/surface/surface_set.h"
 
 namespace backlight::fuzz {
 namespace {
@@ -95,6 +98,31 @@ void try_table(const std::filesystem::path& file) {
   require(made.spectrum.has_value() || !made.error.empty(), "no word about a spectrum");
 }
 
+void try_mesh(const std::filesystem::path& file) {
+  auto read = read_model(file, true);
+  require(read.ok() || !read.error().empty(), "no word about a mesh");
+  if (!read.ok()) return;
+  MeshData& data = read.value().mesh;
+  for (const auto& triangle : data.triangles)
+    for (const std::uint32_t corner : triangle) require(corner < data.places.size(), "a corner of nothing");
+  for (const Vec3& place : data.places)
+    require(std::isfinite(place.x + place.y + place.z), "a place that is nowhere");
+  require(!read.value().materials.empty(), "no material");
+  if (data.normals.empty()) add_smooth_normals(data, 0.7);
+  const auto made = std::make_shared<const Mesh>(std::move(data));
+  static_cast<void>(made->is_closed());
+  const Shape shape = mesh(made);
+  if (!problem(shape).empty()) return;
+  SurfaceSet set;
+  set.add(shape, Placement{});
+  set.build();
+  for (const Vec3 from : {Vec3{5, 4, 3}, Vec3{-3, 0.1, 0.2}, Vec3{0.01, 0.02, -1e3}}) {
+    const Hit hit = set.nearest(from, -from);
+    require(!hit.found() || hit.lambda > 0.0, "a hit behind");
+    if (hit.found()) static_cast<void>(set.resolve(hit, from, -from));
+  }
+}
+
 }  // namespace
 
 void try_input(Kind kind, const std::filesystem::path& file, const std::filesystem::path& folder) {
@@ -107,6 +135,8 @@ void try_input(Kind kind, const std::filesystem::path& file, const std::filesyst
       return try_texture(file);
     case Kind::table:
       return try_table(file);
+    case Kind::mesh:
+      return try_mesh(file);
   }
 }
 

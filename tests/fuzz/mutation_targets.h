@@ -7,7 +7,7 @@
 namespace backlight::fuzz {
 
 /// What an input is.
-enum class Kind { scene, image, texture, table };
+enum class Kind { scene, image, texture, table, mesh };
 
 /// Reads the input from `file` as its kind, and goes on with what comes of it: a scene is compiled and a tiny
 /// image of it rendered, an image is shown, compared, assembled and resumed. Relative paths of a scene start
