@@ -127,6 +127,7 @@ figure saturn saturn
 figure mirror-hall mirror-hall
 figure einstein-mirror einstein-mirror
 figure mirror-ball-street mirror-ball-street
+figure glass-ball-and-slab glass-ball-and-slab
 sheet circling-lamp circling-lamp 1-131x26 3 -r 240x175
 sheet bell-rockets bell-rockets 1-37x12 2 -r 360x131 -s 4
 figure rindler-bow rindler-rocket -r 360x263 --camera bow

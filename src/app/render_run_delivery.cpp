@@ -136,10 +136,11 @@ void RenderRun::tell(const Work& work) {
                   "shows where)");
   }
   if (statistics.rays.ended > 0) {
-    progress_.say("backlight: warning: " + file + ": " + std::to_string(statistics.rays.ended) + " of " +
-                  std::to_string(statistics.rays.passed_on + statistics.rays.ended) +
-                  " rays that mirrors pass on end black: they have gone on 'bounces' times ([film], " +
-                  std::to_string(work.scene.film.bounces) + ")");
+    progress_.say(
+        "backlight: warning: " + file + ": " + std::to_string(statistics.rays.ended) + " of " +
+        std::to_string(statistics.rays.passed_on + statistics.rays.ended) +
+        " rays that mirrors and glass pass on end black: they have gone on 'bounces' times ([film], " +
+        std::to_string(work.scene.film.bounces) + ")");
   }
   if (options_.verbosity == Verbosity::quiet) return;
   if (progress_.style() == ProgressStyle::json) {

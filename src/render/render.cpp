@@ -117,7 +117,7 @@ struct ImageTracing::Parts {
         tracer(scene, settings.wavelengths, settings.pieces,
                settings.path == RayPath::sheets ? Search::tree : Search::every_surface) {
     const bool in_sheets = settings.path == RayPath::sheets && settings.pieces.retarded_shadows;
-    if (in_sheets && SheetTracer::can_trace(scene)) {
+    if (in_sheets && SheetTracer::can_trace(scene) && !tracer.camera_is_in_glass()) {
       sheets.emplace(tracer, settings.instructions);
     }
     const SheetTracer* in_use = sheets ? &*sheets : nullptr;

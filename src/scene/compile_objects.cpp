@@ -85,6 +85,7 @@ class ObjectCompiler {
   void run() {
     if (plan_.group_of.empty()) make_plan();
     place_groups();
+    is_any_glass_ = has_glass_that_shows();
     for (std::size_t i = 0; i < written_.size(); ++i) {
       const auto group = static_cast<std::size_t>(plan_.group_of[i]);
       if (!frames_[frame_of_group_[group]].reused) compile_object(static_cast<int>(i), group);
@@ -195,6 +196,10 @@ class ObjectCompiler {
     const Lattice lattice = read_lattice(keys);
     const auto compiled = compile_shape(c_, keys, materials_, object.material);
     if (compiled) object.member_materials = compiled->member_materials;
+    object.casts_shadow = keys.boolean("casts_shadow");
+    if (compiled) check_glass(keys, object, compiled->shape, plan_.groups[group].apart);
+    const bool shades = object.casts_shadow && !materials_.is_glass(object.material);
+    const int object_material = object.material;
     objects_.push_back(std::move(object));
     if (!compiled || c_.values.diagnostics.error_count() > errors) return;
     const bool apart = plan_.groups[group].apart;
@@ -206,6 +211,7 @@ class ObjectCompiler {
     std::unique_ptr<FrameBuilder>& builder = frames_[frame_of_group_[group]].builder;
     if (!builder) builder = std::make_unique<FrameBuilder>();
     if (!leave_room(keys, lattice)) return;
+    if (materials_.is_glass(object_material) && !is_any_glass_) return;
     const auto first = static_cast<int>(builder->surfaces.size());
     if (apart) {
       return add_in_motion(index, keys, static_cast<int>(frame_of_group_[group]), *compiled, lattice,
@@ -213,9 +219,49 @@ class ObjectCompiler {
     }
     const Vec3 centre = placement.position() + placement.rest_from_local() * compiled->centre;
     builder->add_copies(index, compiled->shape, Placement(centre, rotate, placement.scale()), lattice, rotate,
-                        c_.request.outline, keys.boolean("casts_shadow"));
+                        c_.request.outline, shades);
     if (!is_infinite(compiled->shape) && !(builder->surfaces.bounds(first).radius <= greatest_composed)) {
       keys.error("shape", "it is larger than " + number_text(greatest_composed) + ", all scales together");
+    }
+  }
+
+  // Whether any glass has a tint, or another index than 1, or may have.
+  [[nodiscard]] bool has_glass_that_shows() const {
+    const auto shows = [](const Node& material) {
+      const Entry* glass = material.table() != nullptr ? find(material, "glass") : nullptr;
+      if (glass == nullptr || glass->node.table() == nullptr) return false;
+      const Entry* index = find(glass->node, "index");
+      const auto* number = index != nullptr ? std::get_if<double>(&index->node.value) : nullptr;
+      return number == nullptr || *number != 1.0 || glass->node.table()->size() > 1 ||
+             material.table()->size() > 1;
+    };
+    const Entry* named = find(c_.values.description.root, "material");
+    if (named != nullptr && named->node.table() != nullptr) {
+      for (const Entry& entry : *named->node.table()) {
+        if (shows(entry.node)) return true;
+      }
+    }
+    return std::ranges::any_of(written_, [&](const Node& object) {
+      const Entry* own = object.table() != nullptr ? find(object, "material") : nullptr;
+      return own != nullptr && shows(own->node);
+    });
+  }
+
+  // Glass has an inside, all of one glass, that does not move in its frame.
+  void check_glass(const TableView& keys, const Object& object, const Shape& shape, bool in_motion) const {
+    const auto is_glass = [&](int material) { return materials_.is_glass(material); };
+    const bool whole =
+        is_glass(object.material) &&
+        std::ranges::all_of(object.member_materials, [&](int its) { return its == object.material; });
+    if (!is_glass(object.material) && std::ranges::none_of(object.member_materials, is_glass)) return;
+    if (!whole) {
+      keys.error("material", "a solid of glass is one body: its parts cannot have materials of their own",
+                 "give the glass to the whole object, and let other objects stand in it");
+    } else if (!is_solid(shape)) {
+      keys.error("material", "glass has to enclose something, and this surface has no inside");
+    } else if (in_motion) {
+      keys.error("material", "glass that moves by formulas of t, or a rocket, is not computed",
+                 "give it a velocity, or a frame in which it rests");
     }
   }
 
@@ -287,6 +333,7 @@ class ObjectCompiler {
   std::vector<std::size_t> frame_of_group_;
   std::vector<bool> moves_;  // by group: whether it has a frame of its own
   std::vector<FrameOfImage> frames_;
+  bool is_any_glass_ = true;  // else such surfaces are left out: nothing would show of them
 };
 
 }  // namespace

@@ -68,6 +68,10 @@ KeyTable material() {
         "`texture`, `checker` and `spectrum` is written reflects nothing else.",
         between(0, 1),
         {}},
+       structured(
+           "glass", {{ValueKind::table, 0, "material.glass"}},
+           "What is within the surface, through which light goes; it has to enclose something and to be at "
+           "rest in its frame."),
        own(number(
            "emission", 0.0, "film Y",
            "Own radiance, added to what is reflected; with `absolute` an emissivity, without a unit, and 1 "
@@ -86,6 +90,26 @@ KeyTable material() {
        structured("lines", {{ValueKind::table, 0, "lines"}},
                   "Emission of single wavelengths, alone or beside `emission_spectrum`: a glowing gas. The "
                   "film Y of all of it together, at rest, is `emission`.")},
+      ""};
+}
+
+KeyTable glass() {
+  return {
+      "material.glass",
+      "glass = { ... }",
+      "Glass, water or any other clear body. Light is refracted and reflected at its surface by the laws of "
+      "Snell and Fresnel (unpolarised), in the frame of the glass; both parts are followed until the rest "
+      "is too faint to be seen. Inside, light takes `index` times as long. Lamps shine straight through it, "
+      "less what its surfaces reflect and its tint takes.",
+      {number("index", Required{}, "", "Of refraction, the same at all wavelengths: glass 1.5, water 1.33.",
+              between(1, 100)),
+       {"tint",
+        {{ValueKind::number}, {ValueKind::numbers, 3}},
+        1.0,
+        "",
+        "The share of light that a way of one unit of length leaves: a number, or `[red, green, blue]`.",
+        between(0, 1),
+        {}}},
       ""};
 }
 
@@ -354,7 +378,7 @@ std::vector<KeyTable> shapes() {
 }  // namespace
 
 std::vector<KeyTable> matter_tables() {
-  std::vector<KeyTable> tables{frame(), material(), checker(), spectrum(), lines(), object()};
+  std::vector<KeyTable> tables{frame(), material(), glass(), checker(), spectrum(), lines(), object()};
   for (KeyTable& shape : shapes()) tables.push_back(std::move(shape));
   tables.push_back(part());
   tables.push_back(repeat());

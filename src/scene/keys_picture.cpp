@@ -81,11 +81,11 @@ KeyTable film() {
               "Multiplies every film value. Of light with `absolute = true` it is the film value of 1 cd/m²: "
               "6e-10 shows the disc of the sun as about 1, 3e-5 a white wall in the sun. May depend on `t`.",
               at_least(0)),
-       number(
-           "bounces", 8.0, "",
-           "How many mirrors a ray is followed through, one after the other, before it ends black (which is "
-           "counted, and warned of).",
-           whole(0, 1000)),
+       number("bounces", 8.0, "",
+              "How many mirrors and surfaces of glass a ray is followed through, one after the other, before "
+              "it ends "
+              "black (which is counted, and warned of).",
+              whole(0, 1000)),
        number("seed", 0.0, "", "Another number gives other sample positions.", whole(0, 4294967295.0)),
        {"aovs",
         {{ValueKind::choices}},
@@ -100,7 +100,7 @@ KeyTable film() {
         "`samples.N` is the number of samples that the pixel got. All of that is of the first surface; "
         "`mirror.Z`, `mirror.D`, `mirror.T` and `mirror.V` are the light-travel distance, Doppler factor, "
         "world "
-        "time and object's number of what is seen in it, where it is a mirror.",
+        "time and object's number of what is seen in it or through it, where it is a mirror or glass.",
         {},
         {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId", "unresolved", "light", "samples",
          "mirror"}}},

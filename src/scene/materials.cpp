@@ -236,7 +236,9 @@ void Materials::read(const MaterialPlan::Place& place) {
   Material& material = materials_.back();
   material.name = place.name;
   MaterialInTime in_time;
+  (void)table.one_of({"mirror", "glass"});  // both are an error
   if (table.has("mirror")) material.mirror = read_shares(table, "mirror");
+  if (table.has("glass")) material.glass = read_glass(table);
   read_reflectance(table, material, in_time);
   if (const auto lobe = read_lobe_in_time(table)) {
     in_time.lobe = lobe;
@@ -290,6 +292,21 @@ std::shared_ptr<Colour> Materials::read_shares(const TableView& table, std::stri
   if (three) shares->rgb = table.vector(key);
   pending_.push_back({materials_.size() - 1, shares.get(), {}, {}});
   return shares;
+}
+
+std::shared_ptr<const Glass> Materials::read_glass(const TableView& table) {
+  const TableView keys = table.table("glass", "material.glass");
+  auto glass = std::make_shared<Glass>();
+  glass->index = std::max(1.0, keys.number("index"));
+  glass->tint = grey(1.0);
+  if (keys.has("tint")) {
+    const bool three = keys.node_of("tint")->array() != nullptr;
+    glass->tint = grey(three ? 0.0 : keys.number("tint"));
+    if (three) glass->tint.rgb = keys.vector("tint");
+    pending_.push_back({materials_.size() - 1, &glass->tint, {}, {}});
+  }
+  glass->tinted = glass->tint.rgb != LinearRgb{1.0};
+  return glass;
 }
 
 std::shared_ptr<Checker> Materials::read_checker(const TableView& table) {

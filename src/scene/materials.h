@@ -57,6 +57,13 @@ class Materials {
   /// Those of the file of an object's mesh, by the mesh's members.
   std::vector<int> of_model(const TableView& object, const LoadedModel& model);
 
+  /// Whether the material of this index is glass.
+  [[nodiscard]] bool is_glass(int material) const {
+    const auto& made = reuses_ ? plan_.made[static_cast<std::size_t>(material)]
+                               : materials_[static_cast<std::size_t>(material)];
+    return made.glass != nullptr;
+  }
+
   /// To be called after the last material: all of them, with the spectra of those made from RGB.
   SharedVector<Material> finish(CompileCounts& counts);
 
@@ -74,6 +81,7 @@ class Materials {
   void read_of_file(const MaterialPlan::Place& place);
   void make_spectra();
   void read_reflectance(const TableView& table, Material& material, MaterialInTime& in_time);
+  std::shared_ptr<const Glass> read_glass(const TableView& table);
   std::shared_ptr<Colour> read_shares(const TableView& table, std::string_view key);
   static std::shared_ptr<Checker> read_checker(const TableView& table);
   void read_emission(const TableView& table, Material& material, MaterialInTime& in_time);

@@ -1,4 +1,4 @@
-// What mirrors do not show.
+// What mirrors and glass do not show.
 #include <algorithm>
 #include <utility>
 
@@ -12,7 +12,7 @@ void tell_of_mirrors(Compilation& c) {
   if (std::ranges::none_of(c.scene.frames, passes)) return;
   const Node& background = find(c.values.description.root, "background")->node;
   c.values.diagnostics.warning(c.values.description.span(find(background, "stars")->node.place),
-                               "stars, which are points, are not seen in mirrors",
+                               "stars, which are points, are not seen in mirrors, nor through glass",
                                "a 'texture' of the background is");
 }
 

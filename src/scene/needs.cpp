@@ -66,15 +66,17 @@ std::optional<ShiftingMotion> motion_in_mirrors(const Scene& scene) {
     if (!passes_on(scene, mirror)) continue;
     const ExtendedVec3& its = mirror.motion.celerity;
     if (scene.sky.emits && moves(celerity_of(scene, scene.sky.frame), its)) {
-      return ShiftingMotion{ModelReason::mirror_moves,
-                            "the background moves relative to " + name_of(scene, mirror) + ", a mirror's"};
+      return ShiftingMotion{
+          ModelReason::mirror_moves,
+          "the background moves relative to " + name_of(scene, mirror) + ", which passes light on"};
     }
     for (const SceneFrame& frame : scene.frames) {
       if (frame.object_of_surface.empty()) continue;
       if (!frame.surfaces->any_moves() && !mirror.surfaces->any_moves() && !moves(frame.motion.celerity, its))
         continue;
-      return ShiftingMotion{ModelReason::mirror_moves, name_of(scene, frame) + " moves relative to " +
-                                                           name_of(scene, mirror) + ", a mirror's"};
+      return ShiftingMotion{
+          ModelReason::mirror_moves,
+          name_of(scene, frame) + " moves relative to " + name_of(scene, mirror) + ", which passes light on"};
     }
   }
   return std::nullopt;

@@ -1,7 +1,8 @@
-// A ray's way from mirror to mirror, piece by piece.
+// A ray's way through mirrors and glass, piece by piece.
 #pragma once
 
 #include "backlight/trace/tracer.h"
+#include "glass.h"
 
 namespace backlight {
 
@@ -9,11 +10,21 @@ namespace backlight {
 struct Leg {
   const Relay* relay = nullptr;  ///< of the frame that passed it on; null: it is the camera's
   CameraRay ray;
-  int passed = 0;  ///< how many times it was passed on
-  LinearRgb weight{
-      1.0};            ///< of red, green and blue; where colours shift, the factor that all wavelengths share
-  double gamma = 1.0;  ///< the product of those of the pieces before
-  LorentzTransform<Rest, Rest> matter;  ///< from the relay's frame to that of the matter that passed it on
+  int passed = 0;         ///< how many times it was passed on
+  LinearRgb weight{1.0};  ///< of red, green and blue; where colours shift, the factor that all share
+  double gamma = 1.0;     ///< the product of those of the pieces before
+  LorentzTransform<Rest, Rest> matter = {};  ///< from the relay's frame to the matter's that passed it on
+  Media media = {};                          ///< what it goes through
+  int contact = -1;  ///< the opaque surface, of `frame`, that stands on the glass it left; or -1
+  int frame = 0;     ///< the relay's
+};
+
+/// A leg that meets something that passes it on.
+struct PassedOn {
+  const Leg& leg;
+  const SeenPoint& point;
+  DopplerFactor<Camera, Rest> doppler;  ///< from the point's matter to the camera
+  double gamma;                         ///< the product of those of all pieces so far
 };
 
 }  // namespace backlight

@@ -12,13 +12,13 @@ bool records_light(const Scene& scene) {
 
 void Tracer::add_light(const CameraRay& ray, const Effects& effects, SurfaceRecord& record,
                        Scratch& scratch) const {
-  scratch.rays.start(ray);
+  scratch.rays.start(in_medium(ray));
   const FirstHit hit = first_hit(hub_, scratch.rays);
   if (hit.found()) {
     const SeenPoint point = seen_point(hub_, scratch.rays, hit);
     record.lamps = lamps_reaching(shading(), point, effects, scratch);
   }
-  record.unshifted = luminance(colour_along({nullptr, ray}, hit, effects, false, scratch));
+  record.unshifted = luminance(colour_along(camera_leg(ray), hit, effects, false, scratch));
 }
 
 }  // namespace backlight

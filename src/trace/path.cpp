@@ -1,5 +1,7 @@
-// A ray's way, from mirror to mirror: docs/physics.md section 11.
+// The light of a ray's way, through mirrors and glass: docs/physics.md sections 11 and 12.
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "leg.h"
 #include "shading_steps.h"
@@ -15,24 +17,33 @@ double gamma_of(const Leg& leg, const SeenPoint& point, const FrameView& view) {
   return point.matter.gamma() * u.t - glm::dot(point.matter.celerity(), u.x);
 }
 
-// How long a unit of λ is in the camera's frame.
-double length_at_camera(const Leg& leg) {
-  if (leg.relay == nullptr) return 1.0;
-  return leg.relay->to_camera(NullDirection<Rest>{leg.ray.direction, leg.ray.length}).length;
+double largest(const LinearRgb& rgb) {
+  return std::max({rgb.r, rgb.g, rgb.b});
 }
 
 }  // namespace
 
-const Material& Tracer::material_at(const SeenPoint& point) const {
-  return scene_->materials[static_cast<std::size_t>(material_of(*scene_, point.hit, point.surface))];
-}
-
-const Hub& Tracer::hub_of(const Leg& leg) const {
-  return leg.relay != nullptr ? leg.relay->hub : hub_;
-}
-
 LinearRgb Tracer::colour_along(const Leg& leg, const FirstHit& hit, const Effects& effects, bool shifted,
                                Scratch& scratch) const {
+  if (leg.media.empty()) return colour_at(leg, hit, effects, shifted, scratch);
+  require_rest_in_glass(leg, hit);
+  const Glass& glass = *leg.media.back().glass;
+  if (!glass.tinted) return colour_at(leg, hit, effects, shifted, scratch);
+  Leg through = leg;
+  const std::size_t filters = scratch.filters.size();
+  const double length = double(hit.lambda) * leg.ray.length;
+  if (shifted && !glass.tint.spectrum.is_grey()) {
+    scratch.filters.push_back({&glass.tint.spectrum, 1.0 / leg.ray.length, length});
+  } else {
+    through.weight *= glm::pow(glass.tint.rgb, LinearRgb{length});
+  }
+  const LinearRgb colour = colour_at(through, hit, effects, shifted, scratch);
+  scratch.filters.resize(filters);
+  return colour;
+}
+
+LinearRgb Tracer::colour_at(const Leg& leg, const FirstHit& hit, const Effects& effects, bool shifted,
+                            Scratch& scratch) const {
   const Hub& hub = hub_of(leg);
   const int frame = hit.found() ? hit.frame : scene_->sky.frame;
   const RestRayEvents& events = scratch.rays.in(frame);
@@ -50,7 +61,7 @@ LinearRgb Tracer::colour_along(const Leg& leg, const FirstHit& hit, const Effect
   if (relays_.any() && hit.found() && passes_on(material_at(point))) passing = &material_at(point);
   LinearRgb sum{0.0};
   if (passing != nullptr && !has_own_light(*passing)) {
-    // Nothing but what is seen in it.
+    // Nothing but what is passed on.
   } else if (!shifted) {
     // Light into the surface from its retarded event, shadow ray, reflection in the rest frame: (10)-(12).
     const Radiance<Rest> radiance =
@@ -64,83 +75,58 @@ LinearRgb Tracer::colour_along(const Leg& leg, const FirstHit& hit, const Effect
           (radiance_factor(doppler, gamma, factors) * wavelength_density_factor(doppler) * radiance);
   }
   if (passing == nullptr) return sum;
-  Leg next = mirrored(leg, point, doppler, scratch.rays);
-  if (leg.ray.light_delay) next.gamma = gamma;
-  return sum + colour_mirrored(next, *passing->mirror, doppler, effects, shifted, scratch);
+  // Without light delay no light came along the leg, and none of its γ counts.
+  const PassedOn from{leg, point, doppler, leg.ray.light_delay ? gamma : 1.0};
+  return sum + (passing->glass ? colour_parted(from, *passing->glass, effects, shifted, scratch)
+                               : colour_mirrored(from, *passing->mirror, effects, shifted, scratch));
 }
 
-LinearRgb Tracer::colour_mirrored(Leg& leg, const Colour& share, DopplerFactor<Camera, Rest> doppler,
-                                  const Effects& effects, bool shifted, Scratch& scratch) const {
+LinearRgb Tracer::colour_mirrored(const PassedOn& from, const Colour& share, const Effects& effects,
+                                  bool shifted, Scratch& scratch) const {
+  if (share.spectrum.is_black()) return LinearRgb{0.0};
+  Leg next = mirrored(from, scratch.rays);
   const bool coloured = shifted && !share.spectrum.is_grey();
-  if (!coloured) leg.weight *= share.rgb;
-  if (share.spectrum.is_black() || leg.weight == LinearRgb{0.0}) return LinearRgb{0.0};
+  if (!coloured) next.weight *= share.rgb;
+  if (coloured) scratch.filters.push_back({&share.spectrum, from.doppler.value});
+  const LinearRgb colour = follow(next, effects, shifted, scratch);
+  if (coloured) scratch.filters.pop_back();
+  return colour;
+}
+
+// Equations (34) and (35): both parts, each as long as it may still be seen.
+LinearRgb Tracer::colour_parted(const PassedOn& from, const Glass& glass, const Effects& effects,
+                                bool shifted, Scratch& scratch) const {
+  const SeenPoint& point = from.point;
+  const bool entering = glm::dot(point.side, point.surface.normal) > 0.0;
+  const Medium of{point.hit.frame, point.hit.hit.surface, &glass};
+  const Contact contact = contact_at(*scene_, point, from.leg.media, beyond(from.leg.media, of, entering));
+  const Parting parting =
+      part(-point.to_camera, point.normal, index_of(from.leg.media), index_of(contact.media));
+  const double seen = largest(from.leg.weight);
+  std::array<std::optional<Leg>, 2> parts;
+  if (parting.reflected * seen > faintest_) {
+    parts[0] = mirrored(from, scratch.rays);
+    parts[0]->weight *= parting.reflected;
+  }
+  if (parting.refracted && (1.0 - parting.reflected) * seen > faintest_) {
+    parts[1] = refracted(from, *parting.refracted, contact, scratch.rays);
+    parts[1]->weight *= 1.0 - parting.reflected;
+  }
+  LinearRgb sum{0.0};
+  for (const std::optional<Leg>& leg : parts) {
+    if (leg) sum += follow(*leg, effects, shifted, scratch);
+  }
+  return sum;
+}
+
+LinearRgb Tracer::follow(const Leg& leg, const Effects& effects, bool shifted, Scratch& scratch) const {
+  if (leg.weight == LinearRgb{0.0}) return LinearRgb{0.0};
   if (leg.passed > scene_->film.bounces) {
     ++scratch.counts.ended;
     return LinearRgb{0.0};
   }
   ++scratch.counts.passed_on;
-  if (coloured) scratch.filters.push_back({&share.spectrum, doppler.value});
-  scratch.rays.start(leg.relay->hub, leg.ray);
-  const FirstHit hit = first_hit(leg.relay->hub, scratch.rays);
-  const LinearRgb colour = colour_along(leg, hit, effects, shifted, scratch);
-  if (coloured) scratch.filters.pop_back();
-  return colour;
-}
-
-// Equation (30): in the frame of the mirror's matter the ray's direction is reflected and its frequency kept.
-// Without light delay the way to the mirror is no light's, and light arrives there as it does from a lamp.
-Leg Tracer::mirrored(const Leg& leg, const SeenPoint& point, DopplerFactor<Camera, Rest> doppler,
-                     const RayInFrames& rays) const {
-  const Vec3 looking = -point.to_camera;
-  const auto about = [&](const Vec3& normal) {
-    return glm::normalize(looking - 2.0 * glm::dot(looking, normal) * normal);
-  };
-  Vec3 turned = about(point.normal);
-  // By a mesh's smooth normals it may go into the mesh, near an outline.
-  const bool smooth = hub_.frames[static_cast<std::size_t>(point.hit.frame)].scene->surfaces->is_smooth(
-      point.hit.hit.surface);
-  if (smooth && !(glm::dot(turned, point.side) > 0.0)) turned = about(point.side);
-  const double length = leg.ray.light_delay ? 1.0 / doppler.value : 1.0;
-  NullDirection<Rest> n{length * turned, length};
-  if (!point.matter.is_identity()) n = boost_by<Rest, Rest>(-point.surface.velocity)(n);
-  Leg next;
-  next.relay = &relays_.of(point.hit.frame);
-  next.passed = leg.passed + 1;
-  next.weight = leg.weight;
-  next.matter = point.matter;
-  next.ray.direction = n.x;
-  next.ray.length = n.length;
-  next.ray.offset = relays_.since(leg.relay, rays, point.hit,
-                                  point.surface.position + point.surface.error_bound * point.side);
-  next.ray.displaced = true;
-  return next;
-}
-
-MirrorRecord Tracer::seen_in_mirror(const CameraRay& ray, const FirstHit& first, Scratch& scratch) const {
-  Leg leg{nullptr, ray};
-  FirstHit hit = first;
-  MirrorRecord record;
-  record.distance = 0.0;
-  for (;;) {
-    const Hub& hub = hub_of(leg);
-    const int frame = hit.found() ? hit.frame : scene_->sky.frame;
-    const SeenPoint point = hit.found() ? seen_point(hub, scratch.rays, hit) : SeenPoint{};
-    record.doppler = scratch.rays.in(frame).doppler(leg.ray.light_delay).value * point.doppler;
-    // A null vector's length in the camera's frame is that of a unit of λ.
-    record.distance += double(hit.lambda) * length_at_camera(leg);
-    if (!hit.found()) {
-      record.distance = std::numeric_limits<double>::infinity();
-      return record;
-    }
-    if (!passes_on(material_at(point)) || leg.passed == scene_->film.bounces) {
-      record.object_id = object_of(*scene_, hit).id;
-      record.emission_time = scratch.rays.event(0, hit.lambda).t / scene_->c;
-      return record;
-    }
-    leg = mirrored(leg, point, {record.doppler}, scratch.rays);
-    scratch.rays.start(leg.relay->hub, leg.ray);
-    hit = first_hit(leg.relay->hub, scratch.rays);
-  }
+  return colour_along(leg, start(leg, scratch), effects, shifted, scratch);
 }
 
 }  // namespace backlight

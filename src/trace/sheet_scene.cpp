@@ -7,6 +7,7 @@
 
 #include "backlight/trace/visibility.h"
 #include "cones.h"
+#include "glass.h"
 
 namespace backlight {
 namespace {
@@ -43,7 +44,8 @@ SheetScene::SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& k
   } else {
     eyes_.push_back(view_of(scene, 0));
   }
-  lit_in_lanes_.assign(hub.frames.size(), true);
+  // Lanes do not know what glass leaves of a lamp's light.
+  lit_in_lanes_.assign(hub.frames.size(), scene.lights.empty() || glass_surfaces(scene).empty());
   for (std::size_t i = 0; i < hub.lights.size(); ++i) {
     lamps_.push_back(view_of(scene, i));
     if (scene.lights[i].kind == LightKind::ambient) continue;

@@ -44,6 +44,7 @@ Tracer::Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces, S
       wavelengths_(&wavelength_set(wavelengths > 0 ? wavelengths : default_wavelength_count)),
       spectral_(wavelengths > 0),
       stars_(star_images(scene, hub_, *wavelengths_)) {
+  find_glass();
   const bool at_rest = !spectral_ || any_without_shift(scene) || records_light(scene);
   if (spectral_ || (at_rest && RestColours::needs_spectra(scene))) {
     spectra_ = SceneSpectra(scene, *wavelengths_);
@@ -58,7 +59,7 @@ Scratch Tracer::make_scratch(InstructionSet set) const {
 RayLight Tracer::light(const CameraRay& ray, const Effects& effects, Scratch& scratch) const {
   // The ray in every frame with surfaces (docs/physics.md equations (3), (4)), the first hit in each back
   // along the past light cone, and the nearest of them: the smallest λ.
-  scratch.rays.start(ray);
+  scratch.rays.start(in_medium(ray));
   ++scratch.counts.primary;
   ++scratch.counts.single;
   const FirstHit hit = first_hit(hub_, scratch.rays);
@@ -68,11 +69,11 @@ RayLight Tracer::light(const CameraRay& ray, const Effects& effects, Scratch& sc
 LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Effects& effects,
                             Scratch& scratch) const {
   if (hit.hit.unresolved) ++scratch.counts.unresolved;
-  return colour_along({nullptr, ray}, hit, effects, spectral_ && effects.doppler, scratch);
+  return colour_along(camera_leg(ray), hit, effects, spectral_ && effects.doppler, scratch);
 }
 
 SurfaceRecord Tracer::surface(const CameraRay& ray, Scratch& scratch) const {
-  scratch.rays.start(ray);
+  scratch.rays.start(in_medium(ray));
   ++scratch.counts.data;
   return surface_of(ray, first_hit(hub_, scratch.rays), scratch);
 }
@@ -93,7 +94,7 @@ SurfaceRecord Tracer::surface_of(const CameraRay& ray, const FirstHit& hit, Scra
   record.normal = point.normal;
   record.unresolved = hit.hit.unresolved;
   if (relays_.any() && has_aov(*scene_, "mirror") && passes_on(material_at(point))) {
-    record.mirror = seen_in_mirror(ray, hit, scratch);
+    record.mirror = seen_in_mirror(camera_leg(ray), hit, scratch);
   }
   return record;
 }

@@ -51,8 +51,9 @@ json read(const std::string& name) {
 
 Rendering rendering_of(const json& values, std::optional<PixelBox> crop = {}) {
   RenderChoices choices;
-  choices.overrides = {"film.samples=1",
-                       R"(film.aovs=["Z","doppler","emissionTime","properTime","P","N","objectId","mirror"])"};
+  choices.overrides = {
+      "film.samples=1",
+      R"(film.aovs=["Z","doppler","emissionTime","properTime","P","N","objectId","mirror"])"};
   choices.crop = crop;
   if (values.contains("frame")) choices.frame = values["frame"].get<int>();
   return render_file("tests/oracle/scenes/" + values["scene"].get<std::string>(), choices);
@@ -83,8 +84,9 @@ TEST_P(SixtyDigits, Agree) {
     compare_scalar(pixel, "properTime", r.at("properTime.T", x, y), data, place);
     compare_vector(pixel, "P", r.position(x, y), data, place);
     compare_vector(pixel, "N", r.normal(x, y), data, place);
-    for (const auto& [key, channel] :
-         {std::pair("mirrorZ", "mirror.Z"), {"mirrorD", "mirror.D"}, {"mirrorT", "mirror.T"}}) {
+    constexpr std::pair<const char*, const char*> in_mirrors[] = {
+        {"mirrorZ", "mirror.Z"}, {"mirrorD", "mirror.D"}, {"mirrorT", "mirror.T"}};
+    for (const auto& [key, channel] : in_mirrors) {
       if (pixel.contains(key)) compare_scalar(pixel, key, r.at(channel, x, y), data, place);
     }
   }

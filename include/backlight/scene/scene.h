@@ -82,6 +82,13 @@ struct MaterialInTime {
   std::optional<EmissionInTime> emission;
 };
 
+/// What light goes through, at rest.
+struct Glass {
+  double index = 1.0;   ///< of refraction, at all wavelengths
+  Colour tint;          ///< the share of light that a way of length 1 leaves
+  bool tinted = false;  ///< not 1
+};
+
 /// What a surface is made of, in its rest frame. A scene may have a hundred thousand: what few of them have
 /// is behind a pointer.
 struct Material {
@@ -95,12 +102,13 @@ struct Material {
   double shininess = 50.0;                 ///< Phong: the lobe's exponent
   std::shared_ptr<const Colour> emission;  ///< own radiance, at rest to itself; null: it emits nothing
   std::shared_ptr<const Colour> mirror;    ///< the share of light that is reflected as by a mirror, or null
+  std::shared_ptr<const Glass> glass;      ///< what is within its surfaces; null: it is opaque
   std::shared_ptr<const MaterialInTime> in_time;  ///< null: nothing of it changes
 };
 
 /// Whether what comes in is passed on, besides what the material shows of its own.
 inline bool passes_on(const Material& material) {
-  return material.mirror != nullptr;
+  return material.mirror != nullptr || material.glass != nullptr;
 }
 
 /// Whether a material shows anything of its own: it reflects diffusely, or with a lobe, or emits.
@@ -159,6 +167,7 @@ struct Object {
   int id = 0;                         ///< 1, 2, ... in file order
   int material = 0;                   ///< index into Scene::materials
   std::vector<int> member_materials;  ///< of a solid made of several: by SurfacePoint::member
+  bool casts_shadow = true;           ///< of glass: takes its share of lamps' light
 };
 
 /// One inertial frame with all that is at rest in it.

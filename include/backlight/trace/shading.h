@@ -56,6 +56,8 @@ struct Scratch {
   ReflectedLight reflected;
 };
 
+struct GlassSurface;
+
 /// What the shading of one image reads.
 struct ShadingContext {
   const Scene* scene = nullptr;
@@ -63,6 +65,7 @@ struct ShadingContext {
   const RestColours* rest_colours = nullptr;
   const WavelengthSet* wavelengths = nullptr;
   const SceneSpectra* spectra = nullptr;
+  const std::vector<GlassSurface>* glass = nullptr;  ///< that lamps shine through
 };
 
 /// Radiance towards the camera in the surface's frame, as a film colour: no colours are shifted, but the

@@ -41,7 +41,10 @@ struct RayLight {
   bool opaque = false;    ///< it met a surface, or a background that the scene gives: for alpha
 };
 
+struct Contact;
 struct Leg;
+struct Medium;
+struct PassedOn;
 
 /// Traces rays of one image. Immutable; each thread brings its own Scratch.
 class Tracer {
@@ -79,8 +82,10 @@ class Tracer {
   [[nodiscard]] const Hub& hub() const { return hub_; }
   [[nodiscard]] const RestColours& rest_colours() const { return rest_colours_; }
   [[nodiscard]] ShadingContext shading() const {
-    return {scene_, &hub_, &rest_colours_, wavelengths_, &spectra_};
+    return {scene_, &hub_, &rest_colours_, wavelengths_, &spectra_, glass_.get()};
   }
+  /// Whether the camera is in glass: its rays are then no light rays, and not for sheets.
+  [[nodiscard]] bool camera_is_in_glass() const;
   [[nodiscard]] bool is_spectral() const { return spectral_; }
   [[nodiscard]] bool has_stars() const { return !stars_.empty(); }
 
@@ -88,17 +93,37 @@ class Tracer {
   // path.cpp: the colour along a leg of a ray's way, of which it is known what it meets first.
   LinearRgb colour_along(const Leg& leg, const FirstHit& hit, const Effects& effects, bool shifted,
                          Scratch& scratch) const;
-  LinearRgb colour_mirrored(Leg& leg, const Colour& share, DopplerFactor<Camera, Rest> doppler,
-                            const Effects& effects, bool shifted, Scratch& scratch) const;
-  [[nodiscard]] Leg mirrored(const Leg& leg, const SeenPoint& point, DopplerFactor<Camera, Rest> doppler,
-                             const RayInFrames& rays) const;
-  MirrorRecord seen_in_mirror(const CameraRay& ray, const FirstHit& first, Scratch& scratch) const;
+  LinearRgb colour_at(const Leg& leg, const FirstHit& hit, const Effects& effects, bool shifted,
+                      Scratch& scratch) const;
+  LinearRgb colour_mirrored(const PassedOn& from, const Colour& share, const Effects& effects, bool shifted,
+                            Scratch& scratch) const;
+  LinearRgb colour_parted(const PassedOn& from, const Glass& glass, const Effects& effects, bool shifted,
+                          Scratch& scratch) const;
+  LinearRgb follow(const Leg& leg, const Effects& effects, bool shifted, Scratch& scratch) const;
+
+  // passing.cpp: how a ray goes on.
+  [[nodiscard]] CameraRay in_medium(CameraRay ray) const;
+  [[nodiscard]] Leg camera_leg(const CameraRay& ray) const;
+  [[nodiscard]] Leg passed_on(const PassedOn& from, const Vec3& way, const Vec3& beyond,
+                              const RayInFrames& rays) const;
+  [[nodiscard]] Leg mirrored(const PassedOn& from, const RayInFrames& rays) const;
+  [[nodiscard]] Leg refracted(const PassedOn& from, const Vec3& way, const Contact& contact,
+                              const RayInFrames& rays) const;
+  [[nodiscard]] Leg main_part(const PassedOn& from, const Material& material, const RayInFrames& rays) const;
+  FirstHit start(const Leg& leg, Scratch& scratch) const;
+  void require_rest_in_glass(const Leg& leg, const FirstHit& hit) const;
+  MirrorRecord seen_in_mirror(const Leg& camera, const FirstHit& first, Scratch& scratch) const;
   [[nodiscard]] const Material& material_at(const SeenPoint& point) const;
   [[nodiscard]] const Hub& hub_of(const Leg& leg) const;
+  void find_glass();
+  void find_camera_media();
 
   const Scene* scene_;
   Hub hub_;
   Relays relays_;
+  std::shared_ptr<const std::vector<GlassSurface>> glass_;   // of the scene
+  std::shared_ptr<const std::vector<Medium>> camera_media_;  // that the camera is in
+  double faintest_ = 0.0;  // weight of what glass passes on that is still followed
   RestColours rest_colours_;
   const WavelengthSet* wavelengths_;
   SceneSpectra spectra_;  // where colours are shifted

@@ -1,0 +1,258 @@
+// Glass: docs/physics.md section 12, on rendered images.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "matter_scenes.h"
+#include "redescription.h"
+
+namespace backlight::test {
+namespace {
+
+std::string film_through_glass(int width, int height, const std::string& more = "bounces = 40\n") {
+  return "c = 1\n[film]\nresolution = [" + std::to_string(width) + ", " + std::to_string(height) +
+         "]\naovs = [\"Z\", \"doppler\", \"objectId\", \"mirror\"]\n" + more;
+}
+
+double largest(const Vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+double relative(double a, double b) {
+  return std::abs(a - b) / std::max(std::abs(a), std::abs(b));
+}
+
+// Fresnel's share for unpolarised light, by the angles.
+double reflected_share(double cosine, double n) {
+  const double a = std::acos(cosine), b = std::asin(std::sin(a) / n);
+  if (a < 1e-6) return (n - 1) * (n - 1) / ((n + 1) * (n + 1));
+  const double s = std::sin(a - b) / std::sin(a + b), p = std::tan(a - b) / std::tan(a + b);
+  return 0.5 * (s * s + p * p);
+}
+
+// A shining floor under water, under a shining sky: R of the one and the rest of the other.
+TEST(Glass, PartsLightAsSnellAndFresnelSay) {
+  const double n = 1.4, depth = 1.5, height = 2.0;
+  const Rendering picture = render_text(
+      film_through_glass(60, 40) + "[camera]\nposition = [0, 2, 0]\ndirection = [0, -1, 1.2]\nfov = 70\n" +
+      "[background]\ncolor = [1, 1, 1]\n"
+      "[[object]]\nshape = \"plane\"\nmaterial = { glass = { index = 1.4 } }\n"
+      "[[object]]\nshape = \"plane\"\nposition = [0, -1.5, 0]\nmaterial = { color = [0, 0, 0], emission = "
+      "0.25 "
+      "}\n");
+  Worst colour, way;
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      if (picture.id(x, y) != 1) continue;
+      const double cosine = -picture.direction(x, y).y;
+      const double r = reflected_share(cosine, n);
+      colour.take(std::abs(picture.at("R", x, y) - (r + 0.25 * (1 - r))));
+      const double beyond = std::sqrt(1 - (1 - cosine * cosine) / (n * n));
+      way.take(relative(picture.at("mirror.Z", x, y), height / cosine + n * depth / beyond));
+    }
+  }
+  EXPECT_GT(colour.compared, 1500);
+  EXPECT_LT(colour.error, 1e-3);  // half floats
+  EXPECT_LT(way.error, 1e-6);
+}
+
+// What is reflected and what goes through is all there is: at rest in an isotropic bath nobody sees glass.
+TEST(Glass, AtRestInAnIsotropicBathIsNotSeen) {
+  for (const char* velocity : {"", "beta = [0.5, 0.1, -0.6]\n", "beta = [0.1, 0.2, 0.8]\n"}) {
+    const auto scene = [&](const std::string& ball) {
+      return film_through_glass(48, 36, "bounces = 60\nwavelengths = 64\n") +
+             "[background]\ntemperature = 5000\n[camera]\ndirection = [0, 0, 1]\nfov = 100\n" + velocity +
+             ball;
+    };
+    const Rendering without = render_text(scene("")),
+                    with = render_text(scene("[[object]]\nshape = \"sphere\"\nradius = 1.5\nposition = "
+                                             "[0.3, 0.2, 4]\nmaterial = { glass = { index = 1.6 } }\n"));
+    Worst colour;
+    for (int y = 0; y < 36; ++y) {
+      for (int x = 0; x < 48; ++x) {
+        if (with.id(x, y) != 1) continue;
+        const Vec3 rgb = without.rgb(x, y);
+        colour.take(largest(with.rgb(x, y) - rgb) / largest(rgb));
+      }
+    }
+    EXPECT_GT(colour.compared, 15) << velocity;
+    EXPECT_LT(colour.error, 2e-3) << velocity;  // what is too faint is not followed
+  }
+}
+
+// A slab leaves direction and frequency as they were, however it moves.
+TEST(Glass, ASlabShiftsNoColourHoweverItMoves) {
+  for (const Vec3 velocity : {Vec3{0.0}, Vec3{0, 0, -0.8}, Vec3{0.6, 0.3, 0.5}, Vec3{0.95, 0, 0}}) {
+    const Rendering picture =
+        render_text(film_through_glass(30, 20) +
+                    "[camera]\nfov = 50\n[background]\ncolor = [1, 1, 1]\n"
+                    "[[object]]\nshape = \"box\"\nsize = [4000, 4000, 0.7]\nrotate = [10, 20, 0]\nposition = "
+                    "[0, 0, 40]\nbeta = " +
+                    list(velocity) + "\nmaterial = { glass = { index = 1.5 } }\n");
+    Worst doppler;
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 30; ++x) {
+        if (picture.id(x, y) == 1 && std::isinf(picture.at("mirror.Z", x, y)))
+          doppler.take(std::abs(picture.at("mirror.D", x, y) - 1.0));
+      }
+    }
+    EXPECT_GT(doppler.compared, 400) << velocity.x;
+    EXPECT_LT(doppler.error, 1e-6) << velocity.x;
+  }
+}
+
+// Fizeau 1851: in glass that moves along with light or against it, light goes at (1/n ± v)/(1 ± v/n).
+TEST(Glass, DragsLightAsFizeauFound) {
+  const double n = 1.5, thickness = 3.0, front = 6.0, wall = 30.0;
+  for (const double v : {0.0, 0.3, -0.5, 0.6}) {
+    const Rendering picture =
+        render_text(film_through_glass(3, 3) +
+                    "[camera]\nfov = 1e-4\n"
+                    "[[object]]\nshape = \"box\"\nsize = [9, 9, 3]\nposition = [0, 0, " +
+                    digits(front + 0.5 * thickness * std::sqrt(1 - v * v)) + "]\nbeta = [0, 0, " + digits(v) +
+                    "]\nmaterial = { glass = { index = 1.5 } }\n"
+                    "[[object]]\nshape = \"plane\"\nrotate = [90, 0, 0]\nposition = [0, 0, 30]\nmaterial = { "
+                    "color = [0, 0, "
+                    "0], emission = 1 }\n");
+    const double speed = (1 / n - v) / (1 - v / n);  // of light that comes against the glass's v
+    const double left = -front / (1 + v);            // the front face, for the camera
+    const double length = thickness * std::sqrt(1 - v * v);
+    const double entered = left - length / (speed + v);
+    const double behind = front + length + v * entered;
+    EXPECT_LT(relative(picture.at("mirror.Z", 1, 1), -entered + wall - behind), 1e-6) << v;
+    EXPECT_NEAR(picture.at("mirror.D", 1, 1), 1.0, 1e-6) << v;
+    EXPECT_EQ(picture.at("mirror.V", 1, 1), 2) << v;
+  }
+}
+
+// Beer's law holds in the glass's own frame, for as much of it as light crosses.
+TEST(Glass, TakesItsTintByTheLengthOfTheWay) {
+  for (const double v : {0.0, 0.6, -0.4}) {
+    const Rendering picture =
+        render_text(film_through_glass(3, 3) +
+                    "[effects]\ndoppler = false\n[camera]\nfov = 1e-4\n"
+                    "[[object]]\nshape = \"box\"\nsize = [9, 9, 1.5]\nposition = [0, 0, 8]\nbeta = [0, 0, " +
+                    digits(v) +
+                    "]\nmaterial = { glass = { index = 1, tint = [0.5, 0.8, 1] } }\n"
+                    "[background]\ncolor = [1, 1, 1]\n");
+    EXPECT_NEAR(picture.at("R", 1, 1), std::pow(0.5, 1.5), 3e-4) << v;
+    EXPECT_NEAR(picture.at("G", 1, 1), std::pow(0.8, 1.5), 5e-4) << v;
+    EXPECT_NEAR(picture.at("B", 1, 1), 1.0, 5e-4) << v;
+  }
+}
+
+std::string over_floor(const std::string& things) {
+  return "c = 1\n" + film(60, 40) +
+         "[camera]\nposition = [0, 1, -6]\ndirection = [0, -0.1, 1]\nbeta = [0.1, 0, 0.2]\n"
+         "[background]\ncolor = [0.3, 0.5, 0.8]\n[[light]]\nposition = [3, 6, -3]\nintensity = 100\n"
+         "[[object]]\nshape = \"plane\"\nposition = [0, -1, 0]\nmaterial = { checker = { colors = [[0.8, "
+         "0.8, 0.8], "
+         "[0.2, 0.1, 0.1]], size = 1 } }\n" +
+         things;
+}
+
+TEST(Glass, OfIndexOneIsNotThere) {
+  const std::string ball =
+      "[[object]]\nshape = \"sphere\"\nradius = 1\nbeta = [0.3, 0, 0.1]\nmaterial = { glass = { index = 1 } "
+      "}\n";
+  EXPECT_TRUE(same_bits(render_text(over_floor("")), render_text(over_floor(ball))));
+}
+
+// Glass in glass of the same index, glass that touches glass: neither is seen.
+TEST(Glass, ThatTouchesGlassOfItsIndexMakesNoEdge) {
+  const std::string glass = "material = { glass = { index = 1.5 } }\n";
+  const std::string one = "[[object]]\nshape = \"box\"\nsize = [2, 2, 2]\nrotate = [0, 0, 0]\n" + glass;
+  const std::string two = "[[object]]\nshape = \"box\"\nsize = [1, 2, 2]\nposition = [-0.5, 0, 0]\n" + glass +
+                          "[[object]]\nshape = \"box\"\nsize = [1, 2, 2]\nposition = [0.5, 0, 0]\n" + glass;
+  const std::string within = one + "[[object]]\nshape = \"sphere\"\nradius = 0.7\n" + glass;
+  const auto picture = [&](const std::string& things) {
+    return render_text("c = 1\n[film]\nresolution = [60, 40]\nbounces = 30\naovs = [\"objectId\"]\n" +
+                       over_floor(things).substr(over_floor(things).find("[camera]")));
+  };
+  const Rendering a = picture(one);
+  for (const std::string& things : {two, within}) {
+    const Rendering b = picture(things);
+    Worst colour;
+    int far_off = 0;
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 0; x < 60; ++x) {
+        if (!a.is_inside(x, y) || a.id(x, y) != 2) continue;
+        const double difference = largest(a.rgb(x, y) - b.rgb(x, y)) / largest(a.rgb(x, y));
+        far_off += difference > 2e-3 ? 1 : 0;
+        colour.take(difference);
+      }
+    }
+    EXPECT_GT(colour.compared, 150);
+    EXPECT_LE(far_off, 2) << (things == two ? "side by side" : "within")
+                          << colour.error;  // on the edges of a checker's square
+  }
+}
+
+SceneModel glass_in_motion() {
+  SceneModel m;
+  m.film = film_through_glass(60, 45, "bounces = 12\nwavelengths = 64\n").substr(6);
+  m.frames = {{"ground", {0, 0, 0}, {}},
+              {"eye", {0.3, 0.05, 0.6}, {0.5, 0.2, 1.5, -8}},
+              {"slab", {-0.4, 0.1, -0.3}, {0.0, 0.5, 1.0, 3.0}},
+              {"ball", {-0.5, 0.0, 0.2}, {-9.02, 0.0, 1.0, -1}}};
+  m.camera = {"eye", {0, 0, 0}, {0.1, -0.15, 1}, {0, 1, 0}, 0.4};
+  m.objects = {
+      {"ground", "shape = \"plane\"\nmaterial = { color = [0.6, 0.6, 0.5], emission = 0.1 }", {0, -1, 0}, {}},
+      {"slab",
+       "shape = \"box\"\nsize = [5, 3, 0.4]\nmaterial = { glass = { index = 1.5, tint = [0.9, 0.7, 0.5] } }",
+       {0, 0, 0},
+       {10, 25, 5}},
+      {"ball", "shape = \"sphere\"\nradius = 1.3\nmaterial = { glass = { index = 1.3 } }", {0, 0, 0}, {}},
+      {"ground",
+       "shape = \"box\"\nsize = [1.5, 3, 1.5]\nmaterial = { color = [0.5, 0.5, 0.7] }",
+       {-4, 0.5, 3},
+       {0, 20, 0}}};
+  m.lights = {{"ground", "type = \"point\"\nintensity = 200\ntemperature = 5000", {-5, 7, -6}}};
+  return m;
+}
+
+TEST(Glass, ScenesToldFromAnotherFrameAreTheSamePicture) {
+  const SceneModel original = glass_in_motion();
+  const Rendering a = render_text(to_toml(original));
+  for (const double celerity : {0.3, 10.0, 1000.0}) {
+    const Redescription other = redescribed(original, celerity * Vec3{0.48, -0.6, 0.64});
+    const Rendering b = render_text(to_toml(other.model));
+    int seen = 0, off = 0;
+    Worst doppler;
+    for (int y = 1; y + 1 < a.height(); ++y) {
+      for (int x = 1; x + 1 < a.width(); ++x) {
+        if (!a.is_inside(x, y) || a.at("mirror.V", x, y) == 0.0) continue;
+        ++seen;
+        doppler.take(a.at("mirror.V", x, y) == b.at("mirror.V", x, y)
+                         ? relative(a.at("mirror.D", x, y), b.at("mirror.D", x, y))
+                         : 0.0);
+        const Vec3 rgb = a.rgb(x, y);
+        off += largest(rgb - b.rgb(x, y)) > 3e-3 * largest(rgb) ? 1 : 0;
+      }
+    }
+    EXPECT_GT(seen, 30) << celerity;
+    EXPECT_LT(doppler.error, 3e-6) << celerity;
+    EXPECT_LE(off, seen / 100) << celerity;  // at inner edges
+  }
+}
+
+TEST(Glass, RefusesWhatMovesInIt) {
+  const std::string tank =
+      "[[object]]\nname = \"tank\"\nshape = \"box\"\nsize = [3, 3, 3]\nmaterial = { glass = { index = 1.33 } "
+      "}\n";
+  const std::string fish = "[[object]]\nname = \"fish\"\nshape = \"sphere\"\nradius = 0.3\n";
+  EXPECT_NO_THROW(render_text(over_floor(tank + fish)));
+  try {
+    render_text(over_floor(tank + fish + "beta = [0.1, 0, 0]\n"));
+    ADD_FAILURE() << "it was rendered";
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find("'fish' moves relative to the glass of 'tank'"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace backlight::test
