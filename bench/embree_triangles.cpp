@@ -127,7 +127,7 @@ int run(int frequency, int rounds) {
   const auto file = std::filesystem::temp_directory_path() / ("ball" + std::to_string(getpid()) + ".obj");
   test::write_obj(file, mesh);
   const Scene rest = load_text(scene_of(file, "")),
-              moving = load_text(scene_of(file, "beta = [0.6, 0, 0]\n"));
+              moving = load_text(scene_of(file, "beta = [0.6, 0, 0]\nposition = [1.32, 0, 0]\n"));
   std::filesystem::remove(file);
   RTCDevice device = rtcNewDevice("threads=1,user_threads=1");
   if (device == nullptr) {
