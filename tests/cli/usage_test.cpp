@@ -149,7 +149,7 @@ TEST_F(Usage, WrongLinesAreExplained) {
        render},
       {{"scene.toml", "--aov", "Z,dopler"},
        "--aov: expected one of Z, doppler, emissionTime, properTime, P, N, objectId, unresolved, light, "
-       "samples, all, "
+       "samples, mirror, all, "
        "none, not "
        "'dopler'; did you "
        "mean 'doppler'?",
