@@ -1,6 +1,6 @@
 // Writes a field of spheres as a scene, for the benchmarks.
-//   sphere_field N rest|povray|distinct|FRAMES [MOST_GAMMA]      scene on stdout; FRAMES: so many shared
-//   velocities
+//   sphere_field N rest|povray|distinct|circling|FRAMES [MOST_GAMMA]      scene on stdout; FRAMES: so many
+//   shared velocities
 #include <cstdlib>
 #include <iostream>
 #include <string>
@@ -10,7 +10,7 @@
 int main(int argc, char** argv) {
   using namespace backlight::bench;
   if (argc < 3 || std::atoi(argv[1]) < 1) {
-    std::cerr << "sphere_field N rest|povray|distinct|FRAMES [MOST_GAMMA]\n";
+    std::cerr << "sphere_field N rest|povray|distinct|circling|FRAMES [MOST_GAMMA]\n";
     return 2;
   }
   const std::string motion = argv[2];
@@ -18,6 +18,8 @@ int main(int argc, char** argv) {
   request.spheres = std::atoi(argv[1]);
   if (motion == "distinct") {
     request.motion = FieldMotion::distinct;
+  } else if (motion == "circling") {
+    request.motion = FieldMotion::circling;
   } else if (motion != "rest" && motion != "povray") {
     request.motion = FieldMotion::shared;
     request.frames = std::atoi(argv[2]);

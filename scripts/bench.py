@@ -28,7 +28,7 @@ SCENES = {  # pictures that people make, each beside its twin at rest, and how m
     "flicker": ("street-lamp-flicker", "street at rest, flashing lamp", 6),
 }
 ALGEBRAIC = "scenes/algebraic-0.9c.toml"
-ROWS = ("spheres", "torus", "barth", "gyroid", "motion", "spectral", "many", "threads", *SCENES, "algebraic", "big-fig7", "process",
+ROWS = ("spheres", "torus", "barth", "gyroid", "motion", "spectral", "many", "circling", "threads", *SCENES, "algebraic", "big-fig7", "process",
         "memory", "startup")
 SLOW_ROWS = ("memory", "big-fig7")
 PLAIN = ("-D", "effects.doppler=false")  # red, green and blue, with the searchlight effect
@@ -178,6 +178,11 @@ def subjects(bench, rows):
         bench.add("200 spheres spectral", backlight(bench, field(bench, 200, "distinct")))
     if "many" in rows:
         bench.add("10000 spheres moving", backlight(bench, field(bench, 10000, "distinct"), *PLAIN))
+    if "circling" in rows:
+        for motion in ("distinct", "circling"):
+            for shadows in ("true", "false"):
+                bench.add(f"1000 spheres {motion}, shadows {shadows}",
+                          backlight(bench, field(bench, 1000, motion), *PLAIN, "-D", f"light.1.shadows={shadows}"))
     if "threads" in rows:
         big = {"size": "2880x2104"}
         for threads in (1, 2):
@@ -236,6 +241,9 @@ def report(bench, rows):
         ratio("spectra beside RGB", "200 spheres spectral", "200 spheres moving", "<= 2.5")
     if "many" in rows:
         ratio("10 000 spheres beside 200", "10000 spheres moving", "200 spheres moving", "<= 10")
+    if "circling" in rows:
+        for shadows, what in (("true", "1000 spheres on circles beside straight ways"), ("false", "  without shadows")):
+            ratio(what, f"1000 spheres circling, shadows {shadows}", f"1000 spheres distinct, shadows {shadows}", "<= 5")
     if "threads" in rows:
         ratio("two threads, 2880x2104", "big, 1 threads", "big, 2 threads", ">= 1.9")
         ratio("  two processes at once, each on its CPU", "big, 1 threads", "big, two processes", "")

@@ -15,6 +15,7 @@
 #     motion       the cost of motion: the spheres, and those of the three above that are measured too
 #     spectral     the spheres with shifted colours, beside red, green and blue
 #     many         10 000 spheres beside 200
+#     circling     1000 spheres on circles beside 1000 on straight ways, with shadows and without
 #     threads      the spheres on two threads beside one, at 2880x2104
 #     fig2a fig2b fig7 fig1 default flicker
 #                  real scenes (scenes/, all effects that they have, one sample) beside their twins at rest in POV-Ray, which
@@ -27,7 +28,7 @@
 # The kernels by themselves: build/bench/bench/kernels and build/bench/bench/implicit.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-for argument in "$@"; do [[ $argument == -h || $argument == --help ]] && sed -n '2,27s/^# \{0,1\}//p' "$0" && exit 0; done
+for argument in "$@"; do [[ $argument == -h || $argument == --help ]] && sed -n '2,28s/^# \{0,1\}//p' "$0" && exit 0; done
 
 scripts/install.sh build bench
 cmake --preset bench >/dev/null

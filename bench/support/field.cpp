@@ -49,6 +49,15 @@ Vec3 mirrored(const Vec3& v) {
   return {-v.x, v.y, v.z};
 }
 
+/// Formulas of t.
+std::string circle(const FieldSphere& sphere) {
+  const Vec3& centre = sphere.seen_at;
+  const std::string angle = '(' + number(sphere.turning) + " * t + " + number(sphere.phase) + ")\"";
+  const std::string radius = " + " + number(sphere.orbit);
+  return "[\"" + number(centre.x) + radius + " * cos" + angle + ", " + number(centre.y) + ", \"" +
+         number(centre.z) + radius + " * sin" + angle + ']';
+}
+
 }  // namespace
 
 std::vector<FieldSphere> sphere_field(const FieldRequest& request) {
@@ -66,6 +75,11 @@ std::vector<FieldSphere> sphere_field(const FieldRequest& request) {
     if (request.motion == FieldMotion::distinct) sphere.velocity = own;
     if (request.motion == FieldMotion::shared)
       sphere.velocity = velocities[static_cast<std::size_t>(i % request.frames)];
+    if (request.motion == FieldMotion::circling) {
+      sphere.orbit = numbers.between(0.5, 2.0);
+      sphere.turning = glm::length(own) / sphere.orbit;
+      sphere.phase = numbers.between(0.0, 2.0 * M_PI);
+    }
     field.push_back(sphere);
   }
   return field;
@@ -79,9 +93,11 @@ std::string field_for_backlight(const FieldRequest& request) {
       "material = { color = [0.8, 0.8, 0.8], specular = 0.4, shininess = 40 }\n";
   for (const FieldSphere& sphere : sphere_field(request)) {
     const double delay = glm::length(sphere.seen_at - field_eye);
-    text += "\n[[object]]\nshape = \"sphere\"\nradius = " + number(sphere.radius) +
-            "\nposition = " + bracketed(sphere.seen_at + delay * sphere.velocity) + '\n';
-    if (request.motion != FieldMotion::at_rest) text += "beta = " + bracketed(sphere.velocity) + '\n';
+    const bool circles = request.motion == FieldMotion::circling;
+    text += "\n[[object]]\nshape = \"sphere\"\nradius = " + number(sphere.radius) + "\nposition = " +
+            (circles ? circle(sphere) : bracketed(sphere.seen_at + delay * sphere.velocity)) + '\n';
+    if (request.motion != FieldMotion::at_rest && !circles)
+      text += "beta = " + bracketed(sphere.velocity) + '\n';
     text += "material = { color = " + bracketed(sphere.colour) + ", specular = 0.4, shininess = 40 }\n";
   }
   return text;

@@ -15,13 +15,18 @@ struct FieldSphere {
   double radius = 0.0;
   Vec3 colour{0.0};
   Vec3 velocity{0.0};  ///< of the world, c = 1; 0 at rest
+  /// Of `circling`: a level circle about where it would be seen; angle by the time and at time 0.
+  double orbit = 0.0;
+  double turning = 0.0;
+  double phase = 0.0;
 };
 
 /// How many velocities a field has.
 enum class FieldMotion {
   at_rest,
-  shared,   ///< `frames` of them, each of a whole crowd
-  distinct  ///< one for each sphere
+  shared,    ///< `frames` of them, each of a whole crowd
+  distinct,  ///< one for each sphere
+  circling   ///< each on a circle of its own, with the speeds of `distinct`
 };
 
 struct FieldRequest {

@@ -8,6 +8,7 @@
 #include "backlight/surface/implicit.h"
 #include "backlight/surface/placement.h"
 #include "backlight/surface/surface_set.h"
+#include "backlight/surface/wave_path.h"
 #include "words.h"
 
 namespace backlight {
@@ -130,6 +131,14 @@ bool is_seen_later_of(const RocketFlight& rocket, const Vec3& start, const HullB
   return std::hypot(std::abs(along) + half_length, aside) < last - time;
 }
 
+/// Bounds on single coordinates make nothing of a circle's being one: its speed is known at once.
+double path_speed(const std::array<Expression, 3>& position, const Vec3& rate) {
+  const double by_coordinates = glm::length(rate);
+  if (by_coordinates == 0.0) return 0.0;
+  const auto path = WavePath::of(position, 1.0);
+  return path ? std::min(by_coordinates, path->most_speed()) : by_coordinates;
+}
+
 struct Speeds {
   double body;
   double centre;
@@ -153,7 +162,7 @@ Speeds speeds(const std::vector<MotionLevel>& levels, std::vector<HullBall> hull
     // Equation (27): of a point at ξ, |ct|/√(ξ² + c²t²).
     const double path = level->rocket
                             ? c * flight_speed(*level->rocket, hull, std::max(std::abs(from), std::abs(to)))
-                            : glm::length(position.rate);
+                            : path_speed(level->position, position.rate);
     body = stretch * body + stretching + turning + path;
     const double angular = (rotate.rate.x + rotate.rate.y + rotate.rate.z) * (std::numbers::pi / 180.0);
     centre = stretch * centre + (largest(scale.rate) + angular * stretch) * centre_reach + path;

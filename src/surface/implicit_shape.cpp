@@ -143,12 +143,12 @@ void answer(const Shape& shape, Questions& q, RootsWanted wanted) {
   first_roots(*shape.formula, q.pieces, q.roots, finder_of(shape), nullptr, wanted);
 }
 
-void first_crossings_of(const Shape& shape, const LocalLines& lines, double lambda_min,
-                        std::span<FirstOnLine> results) {
+/// Of lines of which the stretches within the bounds are known.
+void first_crossings_within(const Shape& shape, const LocalLines& lines,
+                            const Stretch (&stretches)[LocalLines::most], double lambda_min,
+                            std::span<FirstOnLine> results) {
   std::fill_n(results.begin(), lines.count, FirstOnLine{});
   Questions& q = questions_of_thread();
-  Stretch stretches[LocalLines::most];
-  with_faces(shape, lines, stretches);
   for (std::size_t i = 0; i < lines.count; ++i) {
     const LocalLine line = lines.line(i);
     ask(shape, line, stretches[i], lines.at_lambda(i, lambda_min), i, q);
@@ -164,13 +164,20 @@ void first_crossings_of(const Shape& shape, const LocalLines& lines, double lamb
   }
 }
 
+void first_crossings_of(const Shape& shape, const LocalLines& lines, double lambda_min,
+                        std::span<FirstOnLine> results) {
+  Stretch stretches[LocalLines::most];
+  with_faces(shape, lines, stretches);
+  first_crossings_within(shape, lines, stretches, lambda_min, results);
+}
+
 void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, double lambda_max,
             std::span<bool> results) {
   std::fill_n(results.begin(), lines.count, false);
   Questions& q = questions_of_thread();
   LocalLines ending;  // before they leave the bounds: there the place of a root matters
   std::size_t line_of[LocalLines::most];
-  Stretch stretches[LocalLines::most];
+  Stretch stretches[LocalLines::most], of_ending[LocalLines::most];
   with_faces(shape, lines, stretches);
   for (std::size_t i = 0; i < lines.count; ++i) {
     const LocalLine line = lines.line(i);
@@ -178,7 +185,9 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
     if (lines.is_before(i, stretch.out, lambda_max)) {
       ask(shape, line, stretch, lines.at_lambda(i, lambda_min), i, q);
     } else {
+      if (!(stretch.in <= stretch.out)) continue;
       line_of[ending.count] = i;
+      of_ending[ending.count] = stretch;
       ending.add(line);
     }
   }
@@ -192,7 +201,7 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
   }
   if (ending.count == 0) return;
   FirstOnLine first[LocalLines::most];
-  first_crossings_of(shape, ending, lambda_min, first);
+  first_crossings_within(shape, ending, of_ending, lambda_min, first);
   for (std::size_t k = 0; k < ending.count; ++k) {
     results[line_of[k]] = ending.lambda(k, first[k].t) < lambda_max;
   }

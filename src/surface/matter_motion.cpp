@@ -30,7 +30,9 @@ MatterMotion::Centre rates_of(const MatterMotion::Map& map, const Vec3& x, doubl
 }  // namespace
 
 MatterMotion::MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball, Time time)
-    : body_(std::move(body)), body_shape_(body_shape), ball_(std::move(ball)), time_(time) {}
+    : body_(std::move(body)), body_shape_(body_shape), ball_(std::move(ball)), time_(time) {
+  if (ball_) waves_ = WavePath::of(ball_->path, time_.seconds_per_length);
+}
 
 MatterMotion::MatterMotion(Map velocity, Time time) : velocity_(std::move(velocity)), time_(time) {}
 
@@ -59,6 +61,7 @@ double MatterMotion::own_time(const Vec3& place, double time, const Mat3& rest_f
   return own_time_along([&](double when) { return rest_from_local * velocity_of(point, when); }, time);
 }
 
+/// How far the centre's velocity is from this one at most, between two times.
 double MatterMotion::change_of_velocity(const Vec3& velocity, double from, double to) const {
   constexpr std::array<double, 4> origin{};
   constexpr std::array<double, 4> direction{0.0, 0.0, 0.0, 1.0};
@@ -74,6 +77,15 @@ double MatterMotion::change_of_velocity(const Vec3& velocity, double from, doubl
   }
   // No velocity is larger than the ball's.
   return std::min(std::sqrt(square), 2.0 * ball_->speed);
+}
+
+double MatterMotion::strays(const Vec3& velocity, double time, double half_time) const {
+  if (!waves_) return half_time * change_of_velocity(velocity, time - half_time, time + half_time);
+  return half_time * std::min(0.5 * waves_->most_acceleration() * half_time, 2.0 * waves_->most_speed());
+}
+
+MatterMotion::Centre MatterMotion::near_centre(double time) const {
+  return waves_ ? waves_->at(time) : centre(time);
 }
 
 MatterMotion::Centre MatterMotion::centre(double time) const {

@@ -24,7 +24,7 @@ Meeting meeting(const MatterMotion& motion, const LocalLine& line, double enough
   constexpr int most_steps = 60;
   for (int i = 0;; ++i) {
     const double time = std::max(line.clock.start + s * line.clock.rate, ball.begins);
-    const MatterMotion::Centre centre = motion.centre(time);
+    const MatterMotion::Centre centre = motion.near_centre(time);
     const double ahead = glm::dot(centre.place - line.at(s), line.direction);
     if (std::abs(ahead) <= enough || i == most_steps || !std::isfinite(ahead))
       return {s, centre.place, ahead};
@@ -46,7 +46,8 @@ Stretch inside_ball(const MatterMotion& motion, const LocalLine& line) {
   const double nearest = at.s + at.ahead;
   const double beta = ball.speed * std::abs(line.clock.rate);
   const Vec3 aside = line.at(nearest) - at.centre;
-  const double room = 1e-12 * (ball.radius + std::abs(nearest) + glm::length(at.centre));
+  const double room = 1e-12 * (ball.radius + std::abs(nearest) + glm::length(at.centre)) +
+                      motion.near_centre_doubt(line.clock.start + at.s * line.clock.rate);
   const double radius = ball.radius + beta * std::abs(at.ahead) + room;
   const double rest = 1.0 - beta * beta;
   const double under = radius * radius - rest * glm::dot(aside, aside);
@@ -69,54 +70,68 @@ namespace {
 /// The ball about a moment: no farther than `radius` from centre + velocity (t - time), while that is within
 /// half_time.
 struct Passing {
-  double time;
-  double half_time;
-  Vec3 centre;
-  Vec3 velocity;
-  double radius;
+  double time = 0.0;
+  double half_time = 0.0;
+  Vec3 centre{0.0};
+  Vec3 velocity{0.0};
+  double radius = 0.0;
 };
 
 Passing passing_at(const MatterMotion& motion, double time, double half_time) {
-  const MatterMotion::Ball& ball = *motion.ball();
-  const MatterMotion::Centre centre = motion.centre(time);
-  const double strays = motion.change_of_velocity(centre.velocity, time - half_time, time + half_time);
-  return {time, half_time, centre.place, centre.velocity, ball.radius + half_time * strays};
+  const MatterMotion::Centre centre = motion.near_centre(time);
+  const double strays = motion.strays(centre.velocity, time, half_time);
+  const double doubt = motion.near_centre_doubt(std::abs(time) + half_time);
+  return {time, half_time, centre.place, centre.velocity, motion.ball()->radius + strays + doubt};
 }
 
-/// When light left the centre that arrives at an event: the root of (29), or the moment from which on the
-/// motion is known.
-double retarded_time(const MatterMotion& motion, const Vec3& place, double time, double enough) {
+/// Of light that arrives at an event, or leaves it.
+enum class Way { arrives, leaves };
+
+struct Moments {
+  double first, last;
+};
+
+/// Between these the centre is where light of the event meets it: the root of (29), which they enclose unless
+/// it is off by no more than `enough`; or the moment from which on the motion is known.
+/// `guess`: any moment.
+Moments meeting_with_light(const MatterMotion& motion, const Vec3& place, double time, Way way, double enough,
+                           double guess) {
   const MatterMotion::Ball& ball = *motion.ball();
-  double low = -infinite;
-  double high = time;
-  double at = std::max(time, ball.begins);
+  const double sign = way == Way::arrives ? -1.0 : 1.0;
+  double low = way == Way::arrives ? -infinite : time;
+  double high = way == Way::arrives ? time : infinite;
+  double at = std::clamp(guess, std::max(low, ball.begins), std::max(high, ball.begins));
   constexpr int most_steps = 60;
   for (int i = 0; i < most_steps; ++i) {
-    const MatterMotion::Centre centre = motion.centre(at);
-    const Vec3 way = centre.place - place;
-    const double length = glm::length(way);
-    const double late = (time - at) - length;
-    if (!(std::abs(late) > enough)) break;
-    (late > 0.0 ? low : high) = at;
-    const double next = at + late / (1.0 + (length > 0.0 ? glm::dot(way, centre.velocity) / length : 0.0));
-    const double within = next > low && next < high ? next
-                          : std::isfinite(low)      ? 0.5 * low + 0.5 * high
-                                                    : at - 2.0 * std::abs(late) / (1.0 - ball.speed);
-    if (within < ball.begins) return ball.begins;
+    const MatterMotion::Centre centre = motion.near_centre(at);
+    const Vec3 to = centre.place - place;
+    const double length = glm::length(to);
+    const double over = sign * (at - time) - length;  // the way of the light, over what it has to go
+    if (!(std::abs(over) > enough)) return {at, at};
+    (sign * over > 0.0 ? high : low) = at;
+    const double toward = length > 0.0 ? glm::dot(to, centre.velocity) / length : 0.0;
+    const double next = at - over / (sign - toward);
+    const bool bounded = std::isfinite(low) && std::isfinite(high);
+    const double farther = at + sign * 2.0 * std::abs(over) / (1.0 - ball.speed);
+    const double within = next > low && next < high ? next : bounded ? 0.5 * low + 0.5 * high : farther;
+    if (within < ball.begins) return {ball.begins, ball.begins};
     at = within;
   }
-  return at;
+  return {std::max(low, ball.begins), high};
 }
 
-/// The passing that is seen from an event, and from others no farther than `apart` from it. Of light that
-/// left within r of the centre at t, |h(t)| <= r + apart with the h of (29), which falls: between its roots
-/// for times that much earlier and later.
-Passing passing_of_light(const MatterMotion& motion, const Vec3& place, double time, double apart) {
+/// The passing that light of an event meets, and of others no farther than `apart` from it; no later than
+/// `until`. Of light within r of the centre at t, |h(t)| <= r + apart with the h of (29), which is monotone:
+/// between its roots for times that much earlier and later.
+Passing passing_of_light(const MatterMotion& motion, const Vec3& place, double time, Way way, double apart,
+                         double until = infinite) {
   const MatterMotion::Ball& ball = *motion.ball();
-  const double doubt = 1e-3 * ball.radius;
-  const double reach = ball.radius + apart + 2.0 * doubt + 1e-12 * std::abs(time);
-  const double first = retarded_time(motion, place, time - reach, doubt);
-  const double last = retarded_time(motion, place, time + reach, doubt);
+  const double doubt = 0.02 * ball.radius;
+  const double reach =
+      ball.radius + apart + 2.0 * (doubt + motion.near_centre_doubt(time)) + 1e-12 * std::abs(time);
+  const double first = meeting_with_light(motion, place, time - reach, way, doubt, time - reach).first;
+  const double soon = first + 2.0 * reach;
+  const double last = std::min(until, meeting_with_light(motion, place, time + reach, way, doubt, soon).last);
   return passing_at(motion, 0.5 * first + 0.5 * last,
                     0.5 * (last - first) * (1.0 + 1e-9) + 1e-12 * std::abs(time));
 }
@@ -154,6 +169,16 @@ Stretch inside_passing(const Passing& ball, const LocalLine& line, double begins
   return stretch;
 }
 
+/// By the passing of the moments within a stretch, which are fewer than those of all lines.
+void narrow(const MatterMotion& motion, const LocalLine& line, Stretch& stretch) {
+  const double middle = line.clock.start + (0.5 * stretch.in + 0.5 * stretch.out) * line.clock.rate;
+  const double half = 0.5 * (stretch.out - stretch.in) * std::abs(line.clock.rate);
+  const Passing passing = passing_at(motion, middle, half * (1.0 + 1e-9) + 1e-12 * std::abs(middle));
+  const Stretch within = inside_passing(passing, line, motion.ball()->begins);
+  stretch.in = std::max(stretch.in, within.in);
+  stretch.out = std::min(stretch.out, within.out);
+}
+
 }  // namespace
 
 void inside_ball(const MatterMotion& motion, const LocalLines& lines,
@@ -167,21 +192,39 @@ void inside_ball(const MatterMotion& motion, const LocalLines& lines,
     apart = std::max(apart, glm::length(start.place - first.place) + std::abs(start.time - first.time));
     light = is_light(lines.line(i));
   }
-  if (!light) {
+  const Passing passing = light ? passing_of_light(motion, first.place, first.time, Way::arrives, apart)
+                                : Passing{.half_time = infinite};
+  if (!(passing.half_time < infinite)) {
     for (std::size_t i = 0; i < lines.count; ++i) stretches[i] = inside_ball(motion, lines.line(i));
     return;
   }
-  const Passing passing = passing_of_light(motion, first.place, first.time, apart);
+  const bool strays = motion.is_quick() && passing.radius > 1.05 * ball.radius;
   for (std::size_t i = 0; i < lines.count; ++i) {
-    stretches[i] = inside_passing(passing, lines.line(i), ball.begins);
+    const LocalLine line = lines.line(i);
+    stretches[i] = inside_passing(passing, line, ball.begins);
+    if (strays && stretches[i].in <= stretches[i].out) narrow(motion, line, stretches[i]);
   }
 }
 
-BoundingSphere seen_from(const MatterMotion& motion, const Vec3& place, double time) {
-  const Passing passing = passing_of_light(motion, place, time, 0.0);
+namespace {
+
+BoundingSphere sphere_of(const Passing& passing, const Vec3& place, double time) {
   const double size = glm::length(passing.centre - place) + std::abs(time);
   const double radius = passing.radius + glm::length(passing.velocity) * passing.half_time;
   return {passing.centre, radius * (1.0 + 1e-9) + 1e-12 * size};
+}
+
+}  // namespace
+
+BoundingSphere seen_from(const MatterMotion& motion, const Vec3& place, double time) {
+  return sphere_of(passing_of_light(motion, place, time, Way::arrives, 0.0), place, time);
+}
+
+BoundingSphere lit_from(const MatterMotion& motion, const LightFlash& flash) {
+  const Passing passing =
+      passing_of_light(motion, flash.place, flash.time, Way::leaves, flash.apart, flash.until);
+  if (passing.half_time < 0.0) return {};
+  return sphere_of(passing, flash.place, flash.time);
 }
 
 }  // namespace backlight

@@ -12,10 +12,15 @@ namespace backlight {
 /// light and for lines of one moment alike.
 Stretch inside_ball(const MatterMotion& motion, const LocalLine& line);
 
-/// The same of each of several lines: of light, from events that are near to each other, by equation (30).
+/// The same of each of several lines: of light, from events that are near to each other, by equations (28a)
+/// and (29).
 void inside_ball(const MatterMotion& motion, const LocalLines& lines, Stretch (&stretches)[LocalLines::most]);
 
 /// A sphere that holds all places at which light can have left the motion's ball that arrives at an event.
 BoundingSphere seen_from(const MatterMotion& motion, const Vec3& place, double time);
+
+/// A sphere that holds all places at which light of a flash can meet the motion's ball; about nothing if it
+/// meets it later.
+BoundingSphere lit_from(const MatterMotion& motion, const LightFlash& flash);
 
 }  // namespace backlight

@@ -60,8 +60,22 @@ constexpr int deepest = 24;
 
 }  // namespace
 
-double own_time_along(const std::function<Vec3(double)>& velocity, double time) {
-  return integral([&](double t) { return rate(velocity(t)); }, 0.0, time, tolerance, deepest);
+double own_time_along(const std::function<Vec3(double)>& velocity, double time,
+                      std::optional<double> period) {
+  const auto clock = [&](double t) { return rate(velocity(t)); };
+  if (!period) return integral(clock, 0.0, time, tolerance, deepest);
+  // Whole periods, and what is left: in pieces on which the rules mostly agree at once.
+  const auto in_pieces = [&](double length) {
+    const double pieces = std::ceil(4.0 * std::abs(length) / *period);
+    double sum = 0.0;
+    for (double i = 0.0; i < pieces; i += 1.0) {
+      sum += integral(clock, length * (i / pieces), length * ((i + 1.0) / pieces), tolerance, deepest);
+    }
+    return sum;
+  };
+  const double periods = std::trunc(time / *period);
+  const double whole = periods != 0.0 ? in_pieces(*period) : 0.0;
+  return periods * whole + in_pieces(time - periods * *period);
 }
 
 namespace {

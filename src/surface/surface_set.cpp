@@ -229,6 +229,7 @@ namespace {
 
 BoundingSphere both(const BoundingSphere& a, const BoundingSphere& b) {
   if (a.radius < 0.0) return b;
+  if (b.radius < 0.0) return a;
   const Vec3 way = b.centre - a.centre;
   const double apart = glm::length(way);
   if (apart + b.radius <= a.radius) return a;
@@ -237,29 +238,58 @@ BoundingSphere both(const BoundingSphere& a, const BoundingSphere& b) {
   return {a.centre + (radius - a.radius) / apart * way, radius * (1.0 + 1e-14)};
 }
 
-BoundingSphere seen_sphere(const PlacedSurface& surface, const Vec3& place, double time) {
-  const BoundingSphere always{surface.position(), surface.radius()};
-  BoundingSphere seen;
-  const Vec3 from = place - surface.position();
+/// About where a surface is met, as `of_path` (its motion, where its local coordinates begin) says of what
+/// goes along a path; about its bounds where that says more.
+template <class OfPath>
+BoundingSphere met_sphere(const PlacedSurface& surface, const Vec3& from, const OfPath& of_path) {
+  const Vec3 place = from + surface.position();
+  const BoundingSphere always{place, surface.radius()};
+  BoundingSphere met{place, infinite};
   if (const MatterMotion* motion = surface.shape.motion.get(); motion != nullptr && motion->ball()) {
-    seen = backlight::seen_from(*motion, from, time);
-    seen.centre += surface.position();
+    met = of_path(*motion, place);
+    met.centre += place;
   } else if (surface.shape.solid && surface.lanes.aligned) {
+    met = {};
     for (const Solid::Leaf& leaf : surface.shape.solid->leaves()) {
-      BoundingSphere of_leaf = seen_sphere(leaf.surface, from, time);
-      of_leaf.centre += surface.position();
-      seen = both(seen, of_leaf);
+      met = both(met, met_sphere(leaf.surface, place, of_path));
     }
   }
-  return seen.radius >= 0.0 && seen.radius < always.radius ? seen : always;
+  return met.radius < always.radius ? met : always;
+}
+
+bool travels(const PlacedSurface& surface) {
+  const Shape& its = surface.shape;
+  if (its.motion) return its.motion->ball().has_value();
+  return its.solid && std::ranges::any_of(its.solid->leaves(),
+                                          [](const Solid::Leaf& leaf) { return travels(leaf.surface); });
 }
 
 }  // namespace
 
+bool SurfaceSet::any_travels() const {
+  return std::ranges::any_of(surfaces_, travels);
+}
+
 BoundingSphere SurfaceSet::seen_from(const Vec3& place, double time) const {
   if (!any_moves()) return bounds();
   BoundingSphere all;
-  for (const PlacedSurface& surface : surfaces_) all = both(all, seen_sphere(surface, place, time));
+  for (const PlacedSurface& surface : surfaces_) {
+    all = both(all, met_sphere(surface, Vec3{0.0}, [&](const MatterMotion& motion, const Vec3& origin) {
+                 return backlight::seen_from(motion, place - origin, time);
+               }));
+  }
+  return all;
+}
+
+BoundingSphere SurfaceSet::lit_from(const LightFlash& flash) const {
+  BoundingSphere all;
+  for (const PlacedSurface& surface : surfaces_) {
+    all = both(all, met_sphere(surface, Vec3{0.0}, [&](const MatterMotion& motion, const Vec3& origin) {
+                 LightFlash its = flash;
+                 its.place -= origin;
+                 return backlight::lit_from(motion, its);
+               }));
+  }
   return all;
 }
 

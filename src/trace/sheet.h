@@ -107,6 +107,10 @@ struct LampTable {
             &place[1],    &place[2],    &gamma,       &inverse_gamma_plus_one,
             &speed,       &radius,      &core,        &who};
   }
+  /// A row to where another was.
+  void copy(int from, int to) {
+    for (double** const column : columns()) (*column)[to] = (*column)[from];
+  }
 };
 
 /// The light of one lamp on its way to some points, in the lamp's frame.

@@ -62,7 +62,8 @@ void SheetScene::list_entries(const Scene& scene) {
     const FrameView& view = hub_->frames[static_cast<std::size_t>(frame)];
     const SurfaceSet& surfaces = *view.scene->surfaces;
     const int first = static_cast<int>(numbered_.size());
-    Entry entry{frame, first, is_extended(view), false};
+    Entry entry{frame, first, is_extended(view), false, false};
+    entry.travels = !entry.extended && surfaces.any_travels();
     // Solids of several materials are a group each: which one a point has is not known before.
     std::unordered_map<int, int> group_of[4];
     for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {
@@ -131,8 +132,6 @@ LampView SheetScene::view_of(const Scene& scene, std::size_t light) const {
   result.in_lanes = !is_extended(lamp_frame);
   for (const auto& to_frame : hub_->lights[light].to_frame) result.to_frame.push_back(lane_motion(to_frame));
 
-  const Vec3 from = lamp_frame.camera_event.x;
-  const Vec3 way = lamp.kind == LightKind::point ? lamp.position - from : Vec3{0.0};
   result.bounded.resize(entries_.size());
   LampTable& table = result.bounded.table();
   table.count = 0;
@@ -141,35 +140,74 @@ LampView SheetScene::view_of(const Scene& scene, std::size_t light) const {
     const Entry& entry = entries_[i];
     if (!entry.casts_shadows) continue;
     const BoundingSphere sphere = surfaces(entry).bounds();
+    const bool may_travel = entry.travels && lamp.kind == LightKind::point && !lamp.motion &&
+                            result.in_lanes && hub_->lights[light].retarded_shadows;
+    result.any_travels = result.any_travels || may_travel;
     if (!std::isfinite(sphere.radius) || lamp.motion) {
-      result.unbounded.push_back(static_cast<int>(i));
+      (may_travel ? result.travellers : result.unbounded).push_back(static_cast<int>(i));
       continue;
     }
-    const FrameView& view = hub_->frames[static_cast<std::size_t>(entry.frame)];
-    const auto& motion = hub_->lights[light].to_frame[static_cast<std::size_t>(entry.frame)];
-    const Vec3& w = motion.celerity();
-    const Vec3 here = glm::transpose(motion.rotation()) * (view.camera_event.x - sphere.centre);
-    const Vec3 place = here + way + (glm::dot(w, way) * motion.inverse_gamma_plus_one()) * w;
+    put(scene, light, entry, sphere, table, table.count);
     const auto j = static_cast<std::size_t>(table.count++);
-    for (int k = 0; k < 3; ++k) {
-      table.celerity[k][j] = w[k];
-      table.place[k][j] = place[k];
-    }
-    table.gamma[j] = motion.gamma();
-    table.inverse_gamma_plus_one[j] = motion.inverse_gamma_plus_one();
-    table.speed[j] = glm::length(w) * (1.0 + 1e-15);
     table.moving = table.moving || table.speed[j] > 0.0;
-    // Room for the rounding of `place`, and of the points that shadow rays start from.
-    const double room =
-        1e-13 * (glm::length(here) + glm::length(view.camera_event.x) + glm::length(sphere.centre) +
-                 2.0 * motion.gamma() * (glm::length(way) + glm::length(from) + glm::length(lamp.position)));
-    table.radius[j] = sphere.radius * (1.0 + 1e-11) + room;
-    const double opaque = surfaces(entry).size() == 1 ? surfaces(entry).opaque_radius(0) : 0.0;
-    table.core[j] =
-        opaque > 0.0 && !entry.extended && !motion.is_robust() ? opaque * (1.0 - 1e-11) - room : 0.0;
     table.who[j] = static_cast<double>(i);
   }
+  for (const int i : result.travellers) {
+    const auto at = static_cast<std::size_t>(entry(i).frame);
+    table.moving = table.moving || !hub_->lights[light].to_frame[at].is_identity();
+  }
   return result;
+}
+
+void SheetScene::put(const Scene& scene, std::size_t light, const Entry& entry, const BoundingSphere& sphere,
+                     LampTable& table, int row) const {
+  const Light& lamp = scene.lights[light];
+  const Vec3 from = hub_->frames[static_cast<std::size_t>(lamp.frame)].camera_event.x;
+  const Vec3 way = lamp.kind == LightKind::point ? lamp.position - from : Vec3{0.0};
+  const FrameView& view = hub_->frames[static_cast<std::size_t>(entry.frame)];
+  const auto& motion = hub_->lights[light].to_frame[static_cast<std::size_t>(entry.frame)];
+  const Vec3& w = motion.celerity();
+  const Vec3 here = glm::transpose(motion.rotation()) * (view.camera_event.x - sphere.centre);
+  const Vec3 place = here + way + (glm::dot(w, way) * motion.inverse_gamma_plus_one()) * w;
+  const auto j = static_cast<std::size_t>(row);
+  for (int k = 0; k < 3; ++k) {
+    table.celerity[k][j] = w[k];
+    table.place[k][j] = place[k];
+  }
+  table.gamma[j] = motion.gamma();
+  table.inverse_gamma_plus_one[j] = motion.inverse_gamma_plus_one();
+  table.speed[j] = glm::length(w) * (1.0 + 1e-15);
+  // Room for the rounding of `place`, and of the points that shadow rays start from.
+  const double room =
+      1e-13 * (glm::length(here) + glm::length(view.camera_event.x) + glm::length(sphere.centre) +
+               2.0 * motion.gamma() * (glm::length(way) + glm::length(from) + glm::length(lamp.position)));
+  table.radius[j] = sphere.radius * (1.0 + 1e-11) + room;
+  const double opaque = surfaces(entry).size() == 1 ? surfaces(entry).opaque_radius(0) : 0.0;
+  table.core[j] =
+      opaque > 0.0 && !entry.extended && !motion.is_robust() ? opaque * (1.0 - 1e-11) - room : 0.0;
+}
+
+bool SheetScene::put_traveller(const Scene& scene, std::size_t light, int index, double time,
+                               double half_time, LampTable& table, int row) const {
+  const Light& lamp = scene.lights[light];
+  const Entry& its = entry(index);
+  const FrameView& view = hub_->frames[static_cast<std::size_t>(its.frame)];
+  const auto& motion = hub_->lights[light].to_frame[static_cast<std::size_t>(its.frame)];
+  const Vec3 way = lamp.position - hub_->frames[static_cast<std::size_t>(lamp.frame)].camera_event.x;
+  const Displacement<Rest> ahead = motion(Displacement<Source>{time, way});
+  const double spread = motion.gamma() + glm::length(motion.celerity());
+  const double size = glm::length(view.camera_event.x) + spread * (std::abs(time) + glm::length(way));
+  const double aside = scene.camera.stereo ? scene.camera.stereo->separation : 0.0;
+  LightFlash flash;
+  flash.place = view.camera_event.x + ahead.x;
+  flash.time = view.camera_event.t + ahead.t;
+  flash.apart = spread * half_time + 1e-13 * (size + std::abs(view.camera_event.t));
+  flash.until = view.camera_event.t + view.from_camera.gamma() * aside + flash.apart;
+  const BoundingSphere sphere = surfaces(its).lit_from(flash);
+  if (sphere.radius < 0.0) return false;
+  put(scene, light, its, sphere, table, row);
+  table.who[static_cast<std::size_t>(row)] = static_cast<double>(index);
+  return true;
 }
 
 }  // namespace backlight

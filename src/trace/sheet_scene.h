@@ -43,6 +43,7 @@ struct Entry {
   int first_number = 0;        ///< the number of its surface 0: they are counted through all frames
   bool extended = false;       ///< of large γ, whose rays take extended precision: one ray at a time
   bool casts_shadows = false;  ///< any of its surfaces
+  bool travels = false;        ///< any of them goes along a path, and it is not extended
 };
 
 /// A surface by its number.
@@ -61,8 +62,10 @@ struct EyeView {
 struct LampView {
   bool in_lanes = false;  ///< its own frame is one that lanes can do
   std::vector<LaneMotion> to_frame;
-  LampStore bounded;           ///< entries that cast shadows
-  std::vector<int> unbounded;  ///< the same without bounds
+  LampStore bounded;            ///< entries that cast shadows
+  std::vector<int> unbounded;   ///< the same without bounds...
+  std::vector<int> travellers;  ///< ...unless by the moment: they go along paths
+  bool any_travels = false;     ///< of all these
 };
 
 class SheetScene {
@@ -86,6 +89,10 @@ class SheetScene {
   }
   [[nodiscard]] const EyeView& eye(int eye) const { return eyes_[eye > 0 ? 1 : 0]; }
   [[nodiscard]] const LampView& lamp(std::size_t light) const { return lamps_[light]; }
+  /// How light that leaves a lamp between these times, from the camera event's, meets a traveller's entry: in
+  /// a sphere, with which row `j` of the table is filled. False: not before it is seen by the camera.
+  bool put_traveller(const Scene& scene, std::size_t light, int entry, double time, double half_time,
+                     LampTable& table, int j) const;
   /// Whether all lights of points of this frame can be done in lanes.
   [[nodiscard]] bool lit_in_lanes(int frame, const Effects& effects) const {
     // Of a lamp on a path, γ is another one for each point: only this effect asks for it.
@@ -97,6 +104,8 @@ class SheetScene {
   void list_entries(const Scene& scene);
   [[nodiscard]] EyeView view_of(const Scene& scene, int eye) const;
   [[nodiscard]] LampView view_of(const Scene& scene, std::size_t light) const;
+  void put(const Scene& scene, std::size_t light, const Entry& entry, const BoundingSphere& sphere,
+           LampTable& table, int j) const;
 
   const SheetKernels* kernels_;
   const Hub* hub_;

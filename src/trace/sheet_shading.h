@@ -110,6 +110,9 @@ class SheetShader {
   // Shadows (tile_shadows.cpp):
   const LampTable& occluders_of_tile(std::size_t light);
   void list_for_tile(std::size_t light, LampTable& list) const;
+  [[nodiscard]] bool narrows(std::size_t light) const;
+  void narrow_travellers(std::size_t light, const Bundle& bundle, LampTable& list) const;
+  bool put_traveller(std::size_t light, int entry, const Bundle& bundle, LampTable& list, int row) const;
   [[nodiscard]] bool in_packets(std::size_t light) const;
   void shadow(std::size_t light);
   void shadow_by_packets(std::size_t light);

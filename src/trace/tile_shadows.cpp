@@ -23,10 +23,15 @@ Vec3 vec(const double (&from)[3][sheet_size], int lane) {
 
 }  // namespace
 
+// Whether occluders go along paths of which the moments tell more.
+bool SheetShader::narrows(std::size_t light) const {
+  return sheets_.lamp(light).any_travels && effects_->light_delay;
+}
+
 // What may shade anything of the tile, where there are so many occluders that it helps to list them.
 const LampTable& SheetShader::occluders_of_tile(std::size_t light) {
   const LampTable& all = sheets_.lamp(light).bounded.table();
-  if (all.count < tile_list_from) return all;
+  if (all.count < tile_list_from && !narrows(light)) return all;
   LampTable& list = work_.tile_lamps[light].table();
   if (list.count == SheetScratch::not_listed) list_for_tile(light, list);
   return list;
@@ -60,7 +65,34 @@ void SheetShader::list_for_tile(std::size_t light, LampTable& list) const {
     bundle.cosine = -1.0;
     bundle.sine = 1e-12;
   }
-  sheets_.kernels().overlapping_lamps(sheets_.lamp(light).bounded.table(), bundle, list);
+  const LampView& view = sheets_.lamp(light);
+  sheets_.kernels().overlapping_lamps(view.bounded.table(), bundle, list);
+  if (!narrows(light)) return;
+  narrow_travellers(light, bundle, list);
+  for (const int entry : view.travellers) {
+    if (put_traveller(light, entry, bundle, list, list.count)) ++list.count;
+  }
+}
+
+// Where the light of a bundle meets the listed occluders that go along paths: spheres smaller than all of
+// their ways.
+void SheetShader::narrow_travellers(std::size_t light, const Bundle& bundle, LampTable& list) const {
+  int kept = 0;
+  for (int i = 0; i < list.count; ++i) {
+    const int entry = static_cast<int>(list.who[i]);
+    const bool narrower = sheets_.entry(entry).travels && bundle.half_time < list.radius[i];
+    if (!narrower) {
+      list.copy(i, kept++);
+    } else if (put_traveller(light, entry, bundle, list, kept)) {
+      ++kept;
+    }
+  }
+  list.count = kept;
+}
+
+bool SheetShader::put_traveller(std::size_t light, int entry, const Bundle& bundle, LampTable& list,
+                                int row) const {
+  return sheets_.put_traveller(tracer_.scene(), light, entry, bundle.time, bundle.half_time, list, row);
 }
 
 bool SheetShader::in_packets(std::size_t light) const {
@@ -148,7 +180,10 @@ void SheetShader::shadow(std::size_t light) {
   for (const int i : view.unbounded) {
     try_entry(light, i, ~std::uint64_t{0});
   }
-  if (view.bounded.table().count == 0) return;
+  if (in_packets(light) || !narrows(light)) {
+    for (const int i : view.travellers) try_entry(light, i, ~std::uint64_t{0});
+  }
+  if (view.bounded.table().count == 0 && view.travellers.empty()) return;
   if (tracer_.scene().lights[light].kind == LightKind::distant) {
     shadow_of_distant(light);
     return;
@@ -165,11 +200,17 @@ void SheetShader::shadow(std::size_t light) {
   if (!kernels.light_bundle(p.light_rays(), 0, p.padded, bundle)) return;
   LampTable& chunk = work_.chunk_lamps.table();
   kernels.overlapping_lamps(occluders_of_tile(light), bundle, chunk);
-  if (chunk.count <= few_occluders) {
+  if (chunk.count <= few_occluders && !narrows(light)) {
     sift(light, chunk, bundle.time, 0, p.padded);
     return;
   }
   LampTable& near = work_.near_lamps.table();
+  if (narrows(light)) {
+    narrow_travellers(light, bundle, chunk);
+    kernels.overlapping_lamps(chunk, bundle, near);
+    sift(light, near, bundle.time, 0, p.padded);
+    return;
+  }
   for (int first = 0; first < p.padded; first += few) {
     const int last = std::min(first + few, p.padded);
     if (!kernels.light_bundle(p.light_rays(), first, last, bundle)) continue;

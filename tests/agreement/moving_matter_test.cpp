@@ -119,13 +119,47 @@ void expect_same_bits(const Rendering& a, const Rendering& b, const PixelBox& wh
   EXPECT_EQ(off, 0);
 }
 
+// Many on circles, in two frames, and some that go away: more than lamps look at one by one.
+std::string a_crowd_on_circles(const std::string& camera) {
+  std::string scene = std::string("[film]\nresolution = [46, 34]\n") + aovs +
+                      "[camera]\nposition = [0, 1.5, -7]\nlook_at = [0, 0.4, 0]\nfov = 55\n" + camera +
+                      R"toml(
+[frame.tram]
+beta = [0.4, 0, 0.3]
+origin = [2, 0.5, 2]
+[[light]]
+position = [3, 6, -3]
+intensity = 90
+[[light]]
+position = [-1, 2, -2]
+intensity = 20
+frame = "tram"
+[[light]]
+type = "distant"
+direction = [1, -2, 1]
+[[object]]
+shape = "plane"
+position = [0, -1.5, 0]
+)toml";
+  for (int i = 0; i < 70; ++i) {
+    const double x = 0.37 * (i % 13) - 2.4, y = 0.3 * (i % 7) - 1.0, z = 0.31 * (i % 11) - 1.5;
+    const double orbit = 0.4 + 0.2 * (i % 3), rate = (0.2 + 0.01 * i) / orbit;
+    const std::string angle = "(" + std::to_string(rate) + "*t + " + std::to_string(i) + ")";
+    const std::string away = i % 9 == 0 ? " + 0.03*t" : i % 10 == 0 ? " + 0.02*sqrt(1 + t^2)" : "";
+    scene += "[[object]]\nshape = \"sphere\"\nradius = 0.2\nposition = [\"" + std::to_string(x) + " + " +
+             std::to_string(orbit) + "*cos" + angle + away + "\", " + std::to_string(y) + ", \"" +
+             std::to_string(z) + " + " + std::to_string(orbit) + "*sin" + angle + "\"]\n" +
+             (i % 4 == 0 ? "frame = \"tram\"\n" : "");
+  }
+  return scene;
+}
+
 class MovingMatterInSheets : public testing::TestWithParam<std::pair<const char*, std::vector<std::string>>> {
 };
 
-TEST_P(MovingMatterInSheets, IsTheLaw) {
+void expect_the_law(const std::string& scene, const std::vector<std::string>& overrides) {
   RenderChoices choices;
-  choices.overrides = GetParam().second;
-  const std::string scene = all_there_is(GetParam().first);
+  choices.overrides = overrides;
   const Rendering sheets = render_text(scene, choices);
   choices.path = RayPath::one_by_one;
   const PixelBox all = sheets.image.layout().data;
@@ -137,6 +171,14 @@ TEST_P(MovingMatterInSheets, IsTheLaw) {
   choices.threads = 5;
   choices.crop = PixelBox{7, 11, 32, 26};
   expect_same_bits(sheets, render_text(scene, choices), *choices.crop);
+}
+
+TEST_P(MovingMatterInSheets, IsTheLaw) {
+  expect_the_law(all_there_is(GetParam().first), GetParam().second);
+}
+
+TEST_P(MovingMatterInSheets, IsTheLawOfCrowds) {
+  expect_the_law(a_crowd_on_circles(GetParam().first), GetParam().second);
 }
 
 INSTANTIATE_TEST_SUITE_P(

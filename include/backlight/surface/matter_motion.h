@@ -9,6 +9,7 @@
 #include "backlight/base/vector.h"
 #include "backlight/expression/expression.h"
 #include "backlight/surface/shape.h"
+#include "backlight/surface/wave_path.h"
 
 namespace backlight {
 
@@ -65,22 +66,27 @@ class MatterMotion {
   [[nodiscard]] double own_time(const Vec3& place, double time, const Mat3& rest_from_local) const;
 
   /// The centre of the ball and its velocity. Only of a motion that has one.
-  struct Centre {
-    Vec3 place;
-    Vec3 velocity;
-  };
+  using Centre = WavePath::Motion;
   [[nodiscard]] Centre centre(double time) const;
-  /// A bound on how far the centre's velocity is from this one between two times.
-  [[nodiscard]] double change_of_velocity(const Vec3& velocity, double from, double to) const;
+  /// The same faster, to within near_centre_doubt(): for bounds.
+  [[nodiscard]] Centre near_centre(double time) const;
+  [[nodiscard]] double near_centre_doubt(double time) const { return waves_ ? waves_->doubt(time) : 0.0; }
+  /// Whether near_centre() and strays() take little time.
+  [[nodiscard]] bool is_quick() const { return waves_.has_value(); }
+  /// A bound on how far the centre is from where it would be at this velocity from `time` on, for as long as
+  /// `half_time` before and after.
+  [[nodiscard]] double strays(const Vec3& velocity, double time, double half_time) const;
 
  private:
   [[nodiscard]] Vec3 velocity_of(const Vec3& body_point, double time) const;
+  [[nodiscard]] double change_of_velocity(const Vec3& velocity, double from, double to) const;
   [[nodiscard]] Vec3 given_velocity(const Vec3& place, double time) const;
 
   std::optional<Body> body_;
   Shape body_shape_;
   std::optional<Map> velocity_;
   std::optional<Ball> ball_;
+  std::optional<WavePath> waves_;  ///< the ball's path, if it is such
   Time time_;
 };
 

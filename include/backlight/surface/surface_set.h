@@ -58,6 +58,15 @@ struct BoundingSphere {
   double radius = -1.0;
 };
 
+/// Light from an event of the frame, and from others that are no farther from it in place and time together
+/// than `apart`.
+struct LightFlash {
+  Vec3 place{0.0};
+  double time = 0.0;
+  double apart = 0.0;
+  double until = std::numeric_limits<double>::infinity();  ///< where it is later counts no more
+};
+
 /// How the surfaces are looked through for a single ray; the answers are the same bit for bit.
 enum class Search {
   tree,          ///< by the tree of boxes that sheets go down
@@ -159,6 +168,10 @@ class SurfaceSet {
   [[nodiscard]] BoundingSphere bounds() const;  ///< of the whole set
   /// Of all places at which light can have left the set that arrives at this event.
   [[nodiscard]] BoundingSphere seen_from(const Vec3& place, double time) const;
+  /// Of all places at which light of the flash can meet the set.
+  [[nodiscard]] BoundingSphere lit_from(const LightFlash& flash) const;
+  /// Whether these two say more than bounds(): anything in it goes along a path.
+  [[nodiscard]] bool any_travels() const;
   /// Of those surfaces that have bounds.
   [[nodiscard]] const BoundingSphere& bounds_of_bounded() const { return bounds_of_bounded_; }
 
