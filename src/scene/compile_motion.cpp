@@ -216,8 +216,7 @@ class MotionCompiler {
     }
     ImplicitOptions options;
     options.seconds_per_length = 1.0 / c_.scene.c;
-    options.unresolved = shape.values[7] == 1.0 && shape.kind == ShapeKind::implicit ? UnresolvedRoots::skip
-                                                                                     : UnresolvedRoots::take;
+    options.unresolved = unresolved_of(shape);
     options.motion = std::make_shared<const MatterMotion>(
         body, shape, rests ? std::nullopt : std::optional(ball), clock_of(c_));
     options.finder = RootFinder::affine;

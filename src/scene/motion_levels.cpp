@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "backlight/expression/waves.h"
 #include "backlight/surface/implicit.h"
 #include "backlight/surface/placement.h"
 #include "own_time.h"
@@ -146,6 +147,7 @@ MatterMotion::Body body_within(const std::vector<MotionLevel>& levels,
     body.place[i] = composer.expression(place[i], "place");
     body.point[i] = composer.expression(point[i], "body point");
   }
+  body.period = period_of_rates(body.place, ImplicitFormula::t);
   return body;
 }
 

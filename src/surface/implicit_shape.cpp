@@ -236,6 +236,11 @@ void count_root_solved() {
   ++roots_solved;
 }
 
+UnresolvedRoots unresolved_of(const Shape& shape) {
+  return shape.kind == ShapeKind::implicit && shape.values[skips] != 0.0 ? UnresolvedRoots::skip
+                                                                         : UnresolvedRoots::take;
+}
+
 Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high) {
   return implicit(std::move(f), low, high, ImplicitOptions{});
 }

@@ -58,7 +58,9 @@ double MatterMotion::own_time(const Vec3& place, double time, const Mat3& rest_f
     return own_time_of_flow(flow, rest_from_local, place, time);
   }
   const Vec3 point = body_point(place, time);
-  return own_time_along([&](double when) { return rest_from_local * velocity_of(point, when); }, time);
+  const auto period = body_->period ? std::optional(*body_->period / time_.seconds_per_length) : std::nullopt;
+  return own_time_along([&](double when) { return rest_from_local * velocity_of(point, when); }, time,
+                        period);
 }
 
 /// How far the centre's velocity is from this one at most, between two times.

@@ -77,11 +77,17 @@ struct Passing {
   double radius = 0.0;
 };
 
-Passing passing_at(const MatterMotion& motion, double time, double half_time) {
-  const MatterMotion::Centre centre = motion.near_centre(time);
+Passing passing_at(const MatterMotion& motion, const MatterMotion::Centre& centre, double time,
+                   double half_time) {
   const double strays = motion.strays(centre.velocity, time, half_time);
   const double doubt = motion.near_centre_doubt(std::abs(time) + half_time);
   return {time, half_time, centre.place, centre.velocity, motion.ball()->radius + strays + doubt};
+}
+
+Passing passing_between(const MatterMotion& motion, double first, double last) {
+  const double time = 0.5 * first + 0.5 * last;
+  const double half_time = 0.5 * (last - first) * (1.0 + 1e-9) + 1e-12 * std::abs(time);
+  return passing_at(motion, motion.near_centre(time), time, half_time);
 }
 
 /// Of light that arrives at an event, or leaves it.
@@ -120,6 +126,23 @@ Moments meeting_with_light(const MatterMotion& motion, const Vec3& place, double
   return {std::max(low, ball.begins), high};
 }
 
+/// For how long before and after the root of (29) |h| is below `reach`, at most, where the centre is then at
+/// `centre`: h goes by k = 1 ± ċ·u per time there, u towards it, and k changes by no more than (28a) and
+/// the turning of u say. Infinite where that is too much.
+double half_time_about(const MatterMotion& motion, const MatterMotion::Centre& centre, const Vec3& place,
+                       Way way, double reach) {
+  const Vec3 to = centre.place - place;
+  const double length = glm::length(to);
+  const double toward = glm::dot(to, centre.velocity) / length;
+  const double rate = way == Way::arrives ? 1.0 + toward : 1.0 - toward;
+  const double longest = 2.0 * reach / rate;
+  const double speed = motion.ball()->speed;
+  const double nearest = length - speed * longest;
+  const double change = motion.most_acceleration() + speed * speed / nearest;
+  const double under = rate * rate - 2.0 * change * reach;
+  return nearest > 0.0 && under > 0.0 ? 2.0 * reach / (rate + std::sqrt(under)) : infinite;
+}
+
 /// The passing that light of an event meets, and of others no farther than `apart` from it; no later than
 /// `until`. Of light within r of the centre at t, |h(t)| <= r + apart with the h of (29), which is monotone:
 /// between its roots for times that much earlier and later.
@@ -129,11 +152,17 @@ Passing passing_of_light(const MatterMotion& motion, const Vec3& place, double t
   const double doubt = 0.02 * ball.radius;
   const double reach =
       ball.radius + apart + 2.0 * (doubt + motion.near_centre_doubt(time)) + 1e-12 * std::abs(time);
+  if (motion.is_quick()) {
+    const double middle = meeting_with_light(motion, place, time, way, doubt, time).first;
+    const MatterMotion::Centre centre = motion.near_centre(middle);
+    const double half_time = half_time_about(motion, centre, place, way, reach);
+    if (half_time < infinite && middle - half_time > ball.begins && middle + half_time < until)
+      return passing_at(motion, centre, middle, half_time * (1.0 + 1e-9) + 1e-12 * std::abs(middle));
+  }
   const double first = meeting_with_light(motion, place, time - reach, way, doubt, time - reach).first;
   const double soon = first + 2.0 * reach;
   const double last = std::min(until, meeting_with_light(motion, place, time + reach, way, doubt, soon).last);
-  return passing_at(motion, 0.5 * first + 0.5 * last,
-                    0.5 * (last - first) * (1.0 + 1e-9) + 1e-12 * std::abs(time));
+  return passing_between(motion, first, last);
 }
 
 struct LineStart {
@@ -173,7 +202,7 @@ Stretch inside_passing(const Passing& ball, const LocalLine& line, double begins
 void narrow(const MatterMotion& motion, const LocalLine& line, Stretch& stretch) {
   const double middle = line.clock.start + (0.5 * stretch.in + 0.5 * stretch.out) * line.clock.rate;
   const double half = 0.5 * (stretch.out - stretch.in) * std::abs(line.clock.rate);
-  const Passing passing = passing_at(motion, middle, half * (1.0 + 1e-9) + 1e-12 * std::abs(middle));
+  const Passing passing = passing_between(motion, middle - half, middle + half);
   const Stretch within = inside_passing(passing, line, motion.ball()->begins);
   stretch.in = std::max(stretch.in, within.in);
   stretch.out = std::min(stretch.out, within.out);

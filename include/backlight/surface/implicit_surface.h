@@ -43,6 +43,9 @@ RootFinder choose_root_finder(const ImplicitFormula& f, const Vec3& low, const V
 /// As implicit(f, low, high) of surface/shape.h.
 Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high, const ImplicitOptions& options);
 
+/// What was chosen for a shape's unresolved roots; of another than a formula's: take.
+UnresolvedRoots unresolved_of(const Shape& shape);
+
 /// A box outside which f has one sign.
 struct FormulaBounds {
   Vec3 low{0.0};

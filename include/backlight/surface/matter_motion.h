@@ -25,6 +25,8 @@ class MatterMotion {
   struct Body {
     Map place;  ///< of a body point
     Map point;  ///< of a place: which body point is there
+    /// After which, in seconds, body points have the velocities again that they had, if one is known.
+    std::optional<double> period{};
   };
 
   /// Of a surface that goes away: a ball that holds it at all times, whose centre goes along a path. Local
@@ -71,8 +73,9 @@ class MatterMotion {
   /// The same faster, to within near_centre_doubt(): for bounds.
   [[nodiscard]] Centre near_centre(double time) const;
   [[nodiscard]] double near_centre_doubt(double time) const { return waves_ ? waves_->doubt(time) : 0.0; }
-  /// Whether near_centre() and strays() take little time.
+  /// Whether near_centre() and strays() take little time, and the centre's acceleration is known.
   [[nodiscard]] bool is_quick() const { return waves_.has_value(); }
+  [[nodiscard]] double most_acceleration() const { return waves_->most_acceleration(); }
   /// A bound on how far the centre is from where it would be at this velocity from `time` on, for as long as
   /// `half_time` before and after.
   [[nodiscard]] double strays(const Vec3& velocity, double time, double half_time) const;
