@@ -112,6 +112,7 @@ if is_wanted stability-unresolved; then # beside it, white where the channel `un
   publish stability-unresolved
 fi
 sheet street-lamp-flicker street-lamp-flicker 1-16x5 2 -r 380x253
+figure headlights headlights
 sheet rocket rocket 1,31,46,61,91,121 3 -r 345x194 -s 4
 sheet lattice-superluminal lattice-superluminal 1-6 3 -r 345x230
 

@@ -44,6 +44,7 @@ for scene in scenes/*.toml tests/golden/scenes/*.toml; do
     circling-lamp) render "$scene" "$name.####.exr" 64x36 -f 1,131 ;;  # rings on the wall, and a new one
     bell-rockets) render "$scene" "$name.####.exr" 64x36 -f 1,25 ;;  # with the string, and without
     clock-dice | light-clock | rolling-wheels) render "$scene" "$name.####.exr" 64x36 -f 13 ;;
+    cubemap) render "$scene" "$name.exr" 60x40 ;;  # six faces
     ladder-barn) render "$scene" "$name.####.exr" 64x36 -f 25 ;;  # both doors are shut
     *) render "$scene" "$name.exr" ;;
   esac

@@ -218,7 +218,7 @@ void add_film_flags(CLI::App& app, ImageRequest& request, RenderOptions& options
   add_value(
       app, "--aov", "LIST",
       "data channels besides the colour, with commas between: Z, doppler, emissionTime, properTime, P, N, "
-      "objectId, unresolved, light, samples, mirror; or all, or none",
+      "objectId, unresolved, light, samples, mirror, lampTime; or all, or none",
       parse_aovs, [&request](std::vector<std::string> names) { request.aovs = std::move(names); })
       ->group(group);
 }
@@ -508,12 +508,50 @@ void add_eye(CLI::App& app, std::size_t& view, const char* group) {
 void add_view_flags(CLI::App& app, ViewOptions& options) {
   const char* group = "Display";
   add_display_flags(app, options.display, group, nullptr);
-  add_eye(app, options.view, group);
+  using Views = std::vector<std::size_t>;
+  add_value(
+      app, "--eye", "EYE",
+      "left (the default) or right, of a stereo pair; or top-bottom, both in one picture, the left one above",
+      choice<Views>({{"left", {0}}, {"right", {1}}, {"top-bottom", {0, 1}}}),
+      [&options](Views views) { options.views = std::move(views); })
+      ->group(group);
+  add_flag(app, "--faces", options.faces,
+           "write the six faces of a cubemap, each in a PNG of its own: NAME.right.png, left, up, down, "
+           "front, back")
+      ->group("Output");
   add_flag(
       app, "--why", options.why,
       "paint black pixels in the colour of why they are: missed blue, shadowed orange, shifted out of the "
       "visible pink, too faint green; and count them. For images rendered with --aov light")
       ->group(group);
+}
+
+void add_channel_flags(CLI::App& app, ViewOptions& options) {
+  const char* group = "Data channels and words";
+  add_value(
+      app, "--channel", "NAME",
+      "show a data channel instead of the colour, as doppler, Z, properTime or P.X, with a scale of its "
+      "colours below. All images get the same scale",
+      parse_text, [&options](std::string name) { options.channel = std::move(name); })
+      ->group(group);
+  add_value(app, "--range", "LO,HI", "values at the ends of that scale; default: the least and the greatest",
+            parse_range, [&options](std::pair<double, double> range) { options.range = range; })
+      ->group(group);
+  add_value(app, "--label", "TEXT",
+            "write this into each picture; {time}, {frame}, {params.NAME}, {file} stand for what the image "
+            "tells, {time:.2} with two decimals",
+            parse_text, [&options](std::string text) { options.label = std::move(text); })
+      ->group(group);
+}
+
+void check_channel_flags(const ViewOptions& options) {
+  if (options.range && options.channel.empty())
+    throw CLI::ValidationError("--range", "is of the scale of --channel");
+  if (options.channel.empty()) return;
+  if (options.why) throw CLI::ValidationError("--channel", "not together with --why");
+  const DisplayChoice& display = options.display;
+  if (display.automatic_exposure || display.exposure_stops || display.tone || display.white)
+    throw CLI::ValidationError("--channel", "--exposure, --tone and --white are for the colour");
 }
 
 Parser view_parser() {
@@ -542,15 +580,20 @@ Parser view_parser() {
             [&options](std::int64_t columns) { options.columns = static_cast<int>(columns); })
       ->group("Output");
   add_view_flags(app, options);
+  add_channel_flags(app, options);
   add_verbosity(app, state->quiet, nullptr);
   parser.finish = [state]() -> Command {
     ViewOptions finished = state->options;
     check_display(finished.display);
+    check_channel_flags(finished);
     finished.files = image_files(state->files);
-    if ((finished.sheet || finished.files.size() > 1) && finished.output.empty()) {
+    if ((finished.sheet || (finished.files.size() > 1 && !finished.faces)) && finished.output.empty()) {
       throw CLI::ValidationError("", "several images make one contact sheet: name it with -o");
     }
     const bool folder = finished.output.filename().empty() || std::filesystem::is_directory(finished.output);
+    if (finished.faces && !(folder || finished.output.empty()))
+      throw CLI::ValidationError("--faces", "six files are written: -o names a folder for them");
+    if (finished.faces && finished.sheet) throw CLI::ValidationError("--faces", "not together with --sheet");
     if (finished.sheet && folder)
       throw CLI::ValidationError("--sheet", "a contact sheet is one file, not a folder");
     if (state->quiet) finished.verbosity = Verbosity::quiet;

@@ -56,6 +56,15 @@ Result<PixelBox> parse_crop(std::string_view text) {
   return box;
 }
 
+Result<std::pair<double, double>> parse_range(std::string_view text) {
+  const std::size_t comma = std::min(text.find(','), text.size());
+  const auto least = number_text<double>(text.substr(0, comma));
+  const auto greatest = number_text<double>(text.substr(std::min(comma + 1, text.size())));
+  if (!least || !greatest || !std::isfinite(*least) || !std::isfinite(*greatest) || !(*least < *greatest))
+    return Failure{"expected LO,HI with LO below HI, such as 0.5,2, not " + quoted(text)};
+  return std::pair{*least, *greatest};
+}
+
 Result<std::pair<int, int>> parse_pixel(std::string_view text) {
   const std::size_t comma = std::min(text.find(','), text.size());
   const auto x = number_text<int>(text.substr(0, comma));

@@ -18,6 +18,9 @@ Result<std::pair<int, int>> parse_size(std::string_view text);
 /// "100,50,400,300": the pixels x0 <= x < x1, y0 <= y < y1 of the full image.
 Result<PixelBox> parse_crop(std::string_view text);
 
+/// "0.5,2": two finite numbers, the first below the second.
+Result<std::pair<double, double>> parse_range(std::string_view text);
+
 /// "320,180": a pixel of the full image, x and y from the top left.
 Result<std::pair<int, int>> parse_pixel(std::string_view text);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -80,10 +81,14 @@ struct ViewOptions {
   std::vector<std::filesystem::path> files;  ///< several make a contact sheet
   std::filesystem::path output;              ///< empty: the file's name with .png; a folder: one PNG each
   DisplayChoice display;
-  std::size_t view = 0;  ///< 0: left, or the only one; 1: right
-  int columns = 0;       ///< of a contact sheet; 0: as square as it can be
-  bool sheet = false;    ///< a contact sheet was asked for by name
-  bool why = false;      ///< black pixels in the colours of why they are
+  std::vector<std::size_t> views{0};  ///< 0: left, or the only one; 1: right; both: one above the other
+  bool faces = false;                 ///< of cubemaps, each face in a PNG of its own
+  int columns = 0;                    ///< of a contact sheet; 0: as square as it can be
+  bool sheet = false;                 ///< a contact sheet was asked for by name
+  bool why = false;                   ///< black pixels in the colours of why they are
+  std::string channel;                ///< a data channel instead of the colour; empty: none
+  std::optional<std::pair<double, double>> range;  ///< of its values, instead of all that there are
+  std::string label;                               ///< words to put into each picture (label_text.h)
   Verbosity verbosity = Verbosity::normal;
 };
 

@@ -41,6 +41,12 @@ std::optional<Lens> lens_of(const ExrInfo& info) {
   lens.width = info.layout.display.width();
   lens.height = info.layout.display.height();
   if (const auto* fov = info.header.find<double>("backlight/fov")) lens.fov = *fov / degrees;
+  if (const auto* screen = info.header.find<std::string>("backlight/screen")) {
+    std::istringstream numbers(*screen);
+    ScreenFilm film;
+    if (!(numbers >> film.foot.x >> film.foot.y >> film.step_x >> film.step_y)) return std::nullopt;
+    lens.screen = film;
+  }
   const std::array<float, 16>& m = *info.header.world_to_camera;
   const auto column = [&m](std::size_t i) {
     return glm::normalize(Vec3{double(m[i]), double(m[4 + i]), double(m[8 + i])});
@@ -131,19 +137,9 @@ Result<std::optional<PixelFacts>> PixelProbe::facts(const PixelPlace& place) {
   if (const auto read = reader_.read_rows(place.y, 1, planes); !read.ok()) return read.failure();
   PixelFacts facts;
   const auto column = static_cast<std::size_t>(place.x - layout.data.x0);
-  // Of this view, by the names that one view alone has.
-  const auto own = [&](const std::string& name) -> std::optional<std::string> {
-    if (layout.views.empty()) return name;
-    for (const char* base : {"R", "G", "B", "A", "Z"}) {
-      if (channel_name(base, layout.views, view_) == name) return base;
-    }
-    const std::string part = "." + layout.views[view_] + ".";
-    const std::size_t at = name.find(part);
-    if (at == std::string::npos) return std::nullopt;
-    return name.substr(0, at) + name.substr(at + part.size() - 1);
-  };
   for (std::size_t i = 0; i < row.size(); ++i) {
-    if (auto name = own(layout.channels[i].name)) facts.channels.emplace_back(*name, row[i][column]);
+    if (auto name = plain_name(layout.channels[i].name, layout.views, view_))
+      facts.channels.emplace_back(*name, row[i][column]);
   }
   if (value_of(facts, "rendered.V") == 0.0F) return std::optional<PixelFacts>{};
   add_channels(facts);

@@ -1,53 +1,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <tuple>
 
+#include "backlight/camera/projection.h"
 #include "backlight/film/display.h"
 #include "backlight/film/exposure.h"
 #include "backlight/film/exr.h"
 #include "backlight/film/why_black.h"
+#include "channel_view.h"
 #include "commands.h"
 #include "display_words.h"
 #include "exit_codes.h"
+#include "label_text.h"
 #include "messages.h"
+#include "picture_layout.h"
 
 namespace backlight {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Pictures in rows, left to right and top to bottom, each at the top left of a cell of the largest one's
-// size.
-PixelBytes contact_sheet(const std::vector<PixelBytes>& pictures, int columns) {
-  int cell_width = 0;
-  int cell_height = 0;
-  for (const PixelBytes& picture : pictures) {
-    cell_width = std::max(cell_width, picture.width);
-    cell_height = std::max(cell_height, picture.height);
-  }
-  const auto count = static_cast<int>(pictures.size());
-  columns = std::clamp(columns > 0 ? columns : static_cast<int>(std::ceil(std::sqrt(count))), 1, count);
-  const int rows = (count + columns - 1) / columns;
-  PixelBytes sheet{cell_width * columns, cell_height * rows, 3, {}};
-  const auto row_bytes = static_cast<std::size_t>(sheet.width) * 3;
-  sheet.samples.assign(row_bytes * static_cast<std::size_t>(sheet.height), 0);
-  for (int i = 0; i < count; ++i) {
-    const PixelBytes& picture = pictures[static_cast<std::size_t>(i)];
-    const auto picture_row = static_cast<std::ptrdiff_t>(picture.width) * 3;
-    for (int y = 0; y < picture.height; ++y) {
-      const auto from = picture.samples.begin() + y * picture_row;
-      const auto row = static_cast<std::size_t>(i / columns * cell_height + y);
-      const auto column = static_cast<std::size_t>(i % columns * cell_width) * 3;
-      std::copy(from, from + picture_row,
-                sheet.samples.begin() + static_cast<std::ptrdiff_t>(row * row_bytes + column));
-    }
-  }
-  return sheet;
-}
 
 // Each image in a PNG of its own, in a folder; otherwise all of them in one PNG.
 bool goes_to_folder(const ViewOptions& options) {
@@ -86,10 +63,11 @@ Result<DisplayTransform> transform_of(const ViewOptions& options) {
   const bool automatic = options.display.is_automatic();
   LuminanceCounts counts;
   for (const fs::path& file : automatic ? options.files : std::vector<fs::path>{}) {
-    const auto picture = read_shown(file, options.view);
+    const auto picture = read_shown(file, options.views.front());
     if (!picture.ok()) return picture.failure();
-    if (const auto added = counts.add(picture.value().image, options.view); !added.ok()) {
-      return Failure{file.string() + ": " + added.error()};
+    for (const std::size_t view : options.views) {
+      if (const auto added = counts.add(picture.value().image, view); !added.ok())
+        return Failure{file.string() + ": " + added.error()};
     }
   }
   const DisplayTransform transform = options.display.transform(counts);
@@ -132,12 +110,45 @@ void print_rest(const fs::path& file, std::size_t view) {
   }
 }
 
-Result<PixelBytes> shown(const fs::path& file, const ViewOptions& options,
-                         const DisplayTransform& transform) {
-  const auto picture = read_shown(file, options.view);
+// One scale for all the images.
+Result<ColourScale> scale_of(const ViewOptions& options) {
+  ChannelValues values;
+  std::string name;
+  for (const fs::path& file : options.files) {
+    const auto picture = read_exr(file);
+    if (!picture.ok()) return picture.failure();
+    const ImageLayout& layout = picture.value().image.layout();
+    for (const std::size_t view : options.views) {
+      const auto channel = channel_meant(layout, options.channel, view);
+      if (!channel.ok()) return Failure{file.string() + ": " + channel.error()};
+      values.add(picture.value().image, channel.value(), view);
+      name = plain_name(layout.channels[channel.value()].name, layout.views, view).value_or("");
+    }
+  }
+  if (values.empty() && options.verbosity != Verbosity::quiet)
+    std::cerr << "no pixel has a finite value of " << name << '\n';
+  ColourScale scale = values.scale_for(name);
+  if (!options.range) return scale;
+  std::tie(scale.least, scale.greatest) = *options.range;
+  if (scale.logarithmic && !(scale.least > 0.0)) return Failure{"--range: " + name + " is greater than 0"};
+  return scale;
+}
+
+Result<PixelBytes> shown_channel(const fs::path& file, const ViewOptions& options, std::size_t view,
+                                 const ColourScale& scale) {
+  const auto picture = read_exr(file);
   if (!picture.ok()) return picture.failure();
-  if (options.verbosity != Verbosity::quiet) print_rest(file, options.view);
-  auto displayed = display_image(picture.value().image, transform, options.view);
+  const auto channel = channel_meant(picture.value().image.layout(), options.channel, view);
+  if (!channel.ok()) return Failure{file.string() + ": " + channel.error()};
+  return show_channel(picture.value(), channel.value(), view, scale);
+}
+
+Result<PixelBytes> shown(const fs::path& file, const ViewOptions& options, std::size_t view,
+                         const DisplayTransform& transform) {
+  const auto picture = read_shown(file, view);
+  if (!picture.ok()) return picture.failure();
+  if (options.verbosity != Verbosity::quiet) print_rest(file, view);
+  auto displayed = display_image(picture.value().image, transform, view);
   if (!displayed.ok()) return Failure{file.string() + ": " + displayed.error()};
   if (options.verbosity != Verbosity::quiet && transform.tone == ToneCurve::none) {
     for (const std::string& line : lines_of(displayed.value().report))
@@ -145,11 +156,79 @@ Result<PixelBytes> shown(const fs::path& file, const ViewOptions& options,
   }
   PixelBytes pixels = std::move(displayed.value().pixels);
   if (options.why) {
-    const auto counts = mark_black(pixels, picture.value().image, transform, options.view);
+    const auto counts = mark_black(pixels, picture.value().image, transform, view);
     if (!counts.ok()) return Failure{file.string() + ": " + counts.error()};
     add_legend(pixels, file, counts.value());
   }
   return pixels;
+}
+
+// What makes the picture of a file and a view: all of them are to be seen with one transform, or one scale.
+using Shower = std::function<Result<PixelBytes>(const fs::path&, std::size_t view)>;
+Result<Shower> shower_of(const ViewOptions& options) {
+  if (!options.channel.empty()) {
+    const auto scale = scale_of(options);
+    if (!scale.ok()) return scale.failure();
+    return Shower([&options, scale = scale.value()](const fs::path& file, std::size_t view) {
+      return shown_channel(file, options, view, scale);
+    });
+  }
+  const auto transform = transform_of(options);
+  if (!transform.ok()) return transform.failure();
+  return Shower([&options, transform = transform.value()](const fs::path& file, std::size_t view) {
+    return shown(file, options, view, transform);
+  });
+}
+
+// The words of each picture, and the height of what is above its legend.
+struct Labels {
+  std::vector<std::string> text;
+  std::vector<int> height;
+  std::string wrong;  // what the images do not tell
+};
+Result<Labels> labels_of(const ViewOptions& options) {
+  Labels labels;
+  if (options.label.empty()) return labels;
+  for (const fs::path& file : options.files) {
+    const auto info = read_exr_info(file);
+    if (!info.ok()) return info.failure();
+    const auto text = label_text(options.label, file, info.value().header);
+    if (!text.ok()) {
+      labels.wrong = file.string() + ": " + text.error();
+      return labels;
+    }
+    labels.text.push_back(text.value());
+    labels.height.push_back(info.value().layout.data.height());
+  }
+  return labels;
+}
+
+// A picture of one file: its views one above the other, each with its label.
+Result<PixelBytes> whole_picture(const ViewOptions& options, const Shower& show, const Labels& labels,
+                                 std::size_t file) {
+  std::vector<PixelBytes> views;
+  for (const std::size_t view : options.views) {
+    auto pixels = show(options.files[file], view);
+    if (!pixels.ok()) return pixels;
+    if (!options.label.empty()) {
+      const auto added = add_label(pixels.value(), labels.height[file], labels.text[file]);
+      if (!added.ok()) return added.failure();
+    }
+    views.push_back(std::move(pixels).value());
+  }
+  return views.size() == 1 ? std::move(views.front()) : contact_sheet(views, 1);
+}
+
+// Fails if an image is of another projection.
+Result<void> require_cubemaps(const ViewOptions& options) {
+  for (const fs::path& file : options.files) {
+    const auto info = read_exr_info(file);
+    if (!info.ok()) return info.failure();
+    const auto* projection = info.value().header.find<std::string>("backlight/projection");
+    if (projection != nullptr && *projection != name_of(Projection::cubemap))
+      return Failure{file.string() + ": its projection is " + *projection + ", not cubemap: it has no faces"};
+  }
+  return {};
 }
 
 int file_trouble(const std::string& message) {
@@ -167,19 +246,33 @@ int run(const ViewOptions& options) {
                 "' must end in .png, or in / for a folder");
     return exit_usage;
   }
-  const auto transform = transform_of(options);
-  if (!transform.ok()) return file_trouble(transform.error());
+  const auto labels = labels_of(options);
+  if (!labels.ok()) return file_trouble(labels.error());
+  if (!labels.value().wrong.empty()) {
+    print_error("--label: " + labels.value().wrong);
+    return exit_usage;
+  }
+  if (const auto cubes = options.faces ? require_cubemaps(options) : Result<void>(); !cubes.ok())
+    return file_trouble(cubes.error());
+  const auto show = shower_of(options);
+  if (!show.ok()) return file_trouble(show.error());
   std::vector<PixelBytes> pictures;
-  for (const fs::path& file : options.files) {
-    auto pixels = shown(file, options, transform.value());
+  for (std::size_t i = 0; i < options.files.size(); ++i) {
+    auto pixels = whole_picture(options, show.value(), labels.value(), i);
     if (!pixels.ok()) return file_trouble(pixels.error());
-    if (!each) {
+    if (options.faces) {
+      const fs::path png = each ? output_path(options, options.files[i])
+                                : fs::path(options.files[i]).replace_extension(".png");
+      if (const auto written = write_faces(png, pixels.value()); !written.ok())
+        return file_trouble(written.error());
+    } else if (!each) {
       pictures.push_back(std::move(pixels).value());
-    } else if (const auto written = write_png(output_path(options, file), pixels.value()); !written.ok()) {
+    } else if (const auto written = write_png(output_path(options, options.files[i]), pixels.value());
+               !written.ok()) {
       return file_trouble(written.error());
     }
   }
-  if (each) return exit_success;
+  if (each || options.faces) return exit_success;
   const PixelBytes sheet =
       pictures.size() == 1 ? std::move(pictures.front()) : contact_sheet(pictures, options.columns);
   const auto written = write_png(output, sheet);

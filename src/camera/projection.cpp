@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace backlight {
@@ -11,8 +12,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // In the order of the enumeration.
-constexpr std::array<std::string_view, 4> projection_names{"perspective", "equirectangular", "mercator",
-                                                           "fisheye"};
+constexpr std::array<std::string_view, 5> projection_names{"perspective", "equirectangular", "mercator",
+                                                           "fisheye", "cubemap"};
 
 Vec3 on_sphere(const Lens& lens, double longitude, double sin_latitude, double cos_latitude) {
   return cos_latitude * (std::cos(longitude) * lens.forward + std::sin(longitude) * lens.right) +
@@ -60,6 +61,68 @@ std::optional<ImagePoint> fisheye_point(const Lens& lens, const Vec3& c) {
   return on_film(lens, half_width + k * c.y, 0.5 * lens.height - k * c.z);
 }
 
+// A face's own axes by those of the camera: where it looks, its right and its up.
+struct FaceAxes {
+  Vec3 forward, right, up;
+};
+
+FaceAxes axes_of(const Lens& lens, CubeFace face) {
+  switch (face) {
+    case CubeFace::right:
+      return {lens.right, -lens.forward, lens.up};
+    case CubeFace::left:
+      return {-lens.right, lens.forward, lens.up};
+    case CubeFace::up:
+      return {lens.up, lens.right, -lens.forward};
+    case CubeFace::down:
+      return {-lens.up, lens.right, lens.forward};
+    case CubeFace::back:
+      return {-lens.forward, -lens.right, lens.up};
+    case CubeFace::front:
+      break;
+  }
+  return {lens.forward, lens.right, lens.up};
+}
+
+double face_edge(const Lens& lens) {
+  return lens.width / 3.0;
+}
+
+Vec3 cube_direction(const Lens& lens, const ImagePoint& p) {
+  const double edge = face_edge(lens);
+  const double column = std::clamp(std::floor(p.x / edge), 0.0, 2.0);
+  const double row = std::clamp(std::floor(p.y / edge), 0.0, 1.0);
+  const FaceAxes face = axes_of(lens, static_cast<CubeFace>(static_cast<int>(3.0 * row + column)));
+  const double x = 2.0 * (p.x - column * edge) / edge - 1.0;
+  const double y = 1.0 - 2.0 * (p.y - row * edge) / edge;
+  const Vec3 d = face.forward + x * face.right + y * face.up;
+  return d * (1.0 / glm::length(d));
+}
+
+std::optional<ImagePoint> cube_point(const Lens& lens, const Vec3& direction) {
+  int nearest = 0;
+  double greatest = -2.0;
+  for (int i = 0; i < 6; ++i) {
+    const double along = glm::dot(direction, axes_of(lens, static_cast<CubeFace>(i)).forward);
+    if (along > greatest) {
+      greatest = along;
+      nearest = i;
+    }
+  }
+  const FaceAxes face = axes_of(lens, static_cast<CubeFace>(nearest));
+  const double edge = face_edge(lens);
+  // On the rim, within the face.
+  const auto within = [edge](double place) { return std::clamp(place, 0.0, std::nextafter(edge, 0.0)); };
+  const double x = within((glm::dot(direction, face.right) / greatest + 1.0) * 0.5 * edge);
+  const double y = within((1.0 - glm::dot(direction, face.up) / greatest) * 0.5 * edge);
+  return on_film(lens, nearest % 3 * edge + x, nearest / 3 * edge + y);
+}
+
+double flat_solid_angle(double x, double y, double step_x, double step_y) {
+  const double square = 1.0 + x * x + y * y;
+  return step_x * step_y / (square * std::sqrt(square));
+}
+
 }  // namespace
 
 std::string_view name_of(Projection projection) {
@@ -76,16 +139,22 @@ bool has_fov(Projection projection) {
   return projection == Projection::perspective || projection == Projection::fisheye;
 }
 
-double perspective_step(const Lens& lens) {
-  return 2.0 * std::tan(0.5 * lens.fov) / lens.width;
+ScreenFilm film_of(const Lens& lens) {
+  if (lens.screen) return *lens.screen;
+  const double step = 2.0 * std::tan(0.5 * lens.fov) / lens.width;
+  return {{0.5 * lens.width, 0.5 * lens.height}, step, step};
+}
+
+bool fits_cubemap(int width, int height) {
+  return width % 3 == 0 && std::int64_t{2} * width == std::int64_t{3} * height;
 }
 
 std::optional<Vec3> direction_at(const Lens& lens, const ImagePoint& point) {
   switch (lens.projection) {
     case Projection::perspective: {
-      const double step = perspective_step(lens);
-      const double x = (point.x - 0.5 * lens.width) * step;
-      const double y = (0.5 * lens.height - point.y) * step;
+      const ScreenFilm film = film_of(lens);
+      const double x = (point.x - film.foot.x) * film.step_x;
+      const double y = (film.foot.y - point.y) * film.step_y;
       const Vec3 d = lens.forward + x * lens.right + y * lens.up;
       return d * (1.0 / glm::length(d));
     }
@@ -100,6 +169,8 @@ std::optional<Vec3> direction_at(const Lens& lens, const ImagePoint& point) {
     }
     case Projection::fisheye:
       return fisheye_direction(lens, point);
+    case Projection::cubemap:
+      return cube_direction(lens, point);
   }
   return std::nullopt;
 }
@@ -109,6 +180,10 @@ std::optional<ImagePoint> point_of(const Lens& lens, const Vec3& direction) {
   switch (lens.projection) {
     case Projection::perspective: {
       if (c.x <= 0.0) return std::nullopt;
+      if (lens.screen) {
+        const ScreenFilm& film = *lens.screen;
+        return on_film(lens, film.foot.x + c.y / c.x / film.step_x, film.foot.y - c.z / c.x / film.step_y);
+      }
       const double scale = 0.5 * lens.width / std::tan(0.5 * lens.fov) / c.x;
       return on_film(lens, 0.5 * lens.width + scale * c.y, 0.5 * lens.height - scale * c.z);
     }
@@ -123,18 +198,30 @@ std::optional<ImagePoint> point_of(const Lens& lens, const Vec3& direction) {
     }
     case Projection::fisheye:
       return fisheye_point(lens, c);
+    case Projection::cubemap:
+      return cube_point(lens, direction);
   }
   return std::nullopt;
+}
+
+ImagePoint straight_ahead(const Lens& lens) {
+  if (lens.screen) return lens.screen->foot;
+  return {0.5 * lens.width, (lens.projection == Projection::cubemap ? 0.75 : 0.5) * lens.height};
 }
 
 double pixel_solid_angle(const Lens& lens, const ImagePoint& point) {
   switch (lens.projection) {
     case Projection::perspective: {
-      const double edge = 2.0 * std::tan(0.5 * lens.fov) / lens.width;
-      const double x = (point.x - 0.5 * lens.width) * edge;
-      const double y = (point.y - 0.5 * lens.height) * edge;
-      const double square = 1.0 + x * x + y * y;
-      return edge * edge / (square * std::sqrt(square));
+      const ScreenFilm film = film_of(lens);
+      return flat_solid_angle((point.x - film.foot.x) * film.step_x, (point.y - film.foot.y) * film.step_y,
+                              film.step_x, film.step_y);
+    }
+    case Projection::cubemap: {
+      const double edge = face_edge(lens);
+      const auto place = [edge](double along) {
+        return 2.0 * (along / edge - std::floor(along / edge)) - 1.0;
+      };
+      return flat_solid_angle(place(point.x), place(point.y), 2.0 / edge, 2.0 / edge);
     }
     case Projection::equirectangular: {
       const double latitude = (0.5 - point.y / lens.height) * pi;

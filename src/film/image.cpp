@@ -45,6 +45,14 @@ std::string channel_name(std::string_view name, const std::vector<std::string>& 
   return Imf::insertViewName(std::string(name), views, static_cast<int>(view));
 }
 
+std::optional<std::string> plain_name(std::string_view channel, const std::vector<std::string>& views,
+                                      std::size_t view) {
+  const std::string name(channel);
+  if (views.empty()) return name;
+  if (view >= views.size() || Imf::viewFromChannelName(name, views) != views[view]) return std::nullopt;
+  return Imf::removeViewName(name, views[view]);
+}
+
 std::vector<ChannelInfo> channels_of_views(const std::vector<ChannelInfo>& base,
                                            const std::vector<std::string>& views) {
   if (views.empty()) {

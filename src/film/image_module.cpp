@@ -19,6 +19,7 @@ Result<ImageModule> ImageModule::load() {
       !library.find("backlight_oiio_encode_png_v1", module.encode_png_) ||
       !library.find("backlight_oiio_colour_map_v1", module.colour_map_) ||
       !library.find("backlight_oiio_base64_v1", module.base64_) ||
+      !library.find("backlight_oiio_write_v1", module.write_) ||
       !library.find("backlight_oiio_free_v1", module.free_)) {
     return library.of_another_version();
   }
@@ -75,6 +76,14 @@ Result<void> ImageModule::colour_map(const float* values, int width, int height,
   if (colour_map_(values, width, height, map, rgb, text.data(), text.size()) != 0) {
     return Failure{std::string("cannot colour a picture: ") + text.data()};
   }
+  return {};
+}
+
+Result<void> ImageModule::write_text(unsigned char* rgb, int width, int height, int x, int y, int side,
+                                     int size, const float* colour, const char* text) const {
+  std::array<char, 512> error{};
+  if (write_(rgb, width, height, x, y, side, size, colour, text, error.data(), error.size()) != 0)
+    return Failure{std::string("cannot write a text into a picture: ") + error.data()};
   return {};
 }
 

@@ -42,6 +42,10 @@ class ImageModule {
   [[nodiscard]] Result<void> colour_map(const float* values, int width, int height, const char* map,
                                         unsigned char* rgb) const;
 
+  /// Writes a line of text into 8-bit RGB: oiio_module.h.
+  [[nodiscard]] Result<void> write_text(unsigned char* rgb, int width, int height, int x, int y, int side,
+                                        int size, const float* colour, const char* text) const;
+
   [[nodiscard]] Result<std::string> base64(const std::string& bytes) const;
 
  private:
@@ -52,6 +56,7 @@ class ImageModule {
   BacklightOiioEncodePng encode_png_ = nullptr;
   BacklightOiioColourMap colour_map_ = nullptr;
   BacklightOiioBase64 base64_ = nullptr;
+  BacklightOiioWrite write_ = nullptr;
   BacklightOiioFree free_ = nullptr;
 };
 

@@ -6,6 +6,8 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
+#include <fontconfig/fontconfig.h>
+#include <freetype/freetype.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -229,6 +231,89 @@ void colour_map(const float* values, int width, int height, const char* map, uns
   }
 }
 
+/// The file of the machine's font that comes nearest to DejaVu Sans, which Debian's fontconfig brings.
+std::string font_file() {
+  const std::unique_ptr<FcPattern, void (*)(FcPattern*)> wanted(
+      FcPatternBuild(nullptr, FC_FAMILY, FcTypeString, "DejaVu Sans", FC_SCALABLE, FcTypeBool, FcTrue,
+                     nullptr),
+      FcPatternDestroy);
+  if (!wanted) throw std::bad_alloc();
+  FcConfigSubstitute(nullptr, wanted.get(), FcMatchPattern);
+  FcDefaultSubstitute(wanted.get());
+  FcResult result = FcResultNoMatch;
+  const std::unique_ptr<FcPattern, void (*)(FcPattern*)> font(FcFontMatch(nullptr, wanted.get(), &result),
+                                                              FcPatternDestroy);
+  FcChar8* file = nullptr;
+  if (!font || FcPatternGetString(font.get(), FC_FILE, 0, &file) != FcResultMatch)
+    throw std::runtime_error("there is no font on this machine (Debian: apt install fonts-dejavu-core)");
+  return reinterpret_cast<const char*>(file);
+}
+
+// FreeType writes letters; OpenImageIO's own render_text takes all characters beyond ASCII for others.
+void require(FT_Error error, const char* what) {
+  if (error != 0) throw std::runtime_error(what);
+}
+
+/// A letter's picture of greys, mixed into the pixels with its lower left at (x, y).
+void mix(const FT_GlyphSlot& letter, unsigned char* rgb, int width, int height, int x, int y,
+         const float* colour) {
+  const FT_Bitmap& grey = letter->bitmap;
+  for (int row = 0; row < static_cast<int>(grey.rows); ++row) {
+    for (int column = 0; column < static_cast<int>(grey.width); ++column) {
+      const int to_x = x + letter->bitmap_left + column;
+      const int to_y = y - letter->bitmap_top + row;
+      if (to_x < 0 || to_x >= width || to_y < 0 || to_y >= height) continue;
+      const float share = static_cast<float>(grey.buffer[row * grey.pitch + column]) / 255.0F;
+      unsigned char* const pixel = rgb + 3 * (std::ptrdiff_t{to_y} * width + to_x);
+      for (int k = 0; k < 3; ++k) {
+        const float mixed = static_cast<float>(pixel[k]) * (1.0F - share) + 255.0F * colour[k] * share;
+        pixel[k] = static_cast<unsigned char>(mixed + 0.5F);
+      }
+    }
+  }
+}
+
+std::vector<FcChar32> characters_of(const char* text) {
+  std::vector<FcChar32> characters;
+  const auto* at = reinterpret_cast<const FcChar8*>(text);
+  for (int left = static_cast<int>(std::strlen(text)); left > 0;) {
+    FcChar32 character = 0;
+    int bytes = FcUtf8ToUcs4(at, &character, left);
+    if (bytes <= 0) {
+      character = 0xFFFD;  // not UTF-8
+      bytes = 1;
+    }
+    characters.push_back(character);
+    at += bytes;
+    left -= bytes;
+  }
+  return characters;
+}
+
+void write_text(unsigned char* rgb, int width, int height, int x, int y, int side, int size,
+                const float* colour, const char* text) {
+  FT_Library library = nullptr;
+  require(FT_Init_FreeType(&library), "FreeType cannot be set up");
+  const std::unique_ptr<FT_LibraryRec_, FT_Error (*)(FT_Library)> end(library, FT_Done_FreeType);
+  FT_Face face = nullptr;
+  require(FT_New_Face(library, font_file().c_str(), 0, &face), "the font cannot be read");
+  require(FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(size)), "the font has no such size");
+  const std::vector<FcChar32> characters = characters_of(text);
+  // First how long it is, then the letters.
+  FT_Pos length = 0;
+  for (const bool draws : {false, true}) {
+    FT_Pos pen = 0;
+    const FT_Pos begin = side < 0 ? 0 : side > 0 ? length : length / 2;
+    for (const FcChar32 character : characters) {
+      require(FT_Load_Char(face, character, draws ? FT_LOAD_RENDER : FT_LOAD_DEFAULT),
+              "a letter cannot be drawn");
+      if (draws) mix(face->glyph, rgb, width, height, x + static_cast<int>((pen - begin) / 64), y, colour);
+      pen += face->glyph->advance.x;
+    }
+    length = pen;
+  }
+}
+
 void base64(const char* data, std::size_t size, BacklightOiioBytes& bytes) {
   const std::string text = OIIO::Strutil::base64_encode({data, size});
   Memory<unsigned char> copy = allocate<unsigned char>(text.size());
@@ -261,6 +346,11 @@ int backlight_oiio_colour_map_v1(const float* values, int width, int height, con
 int backlight_oiio_base64_v1(const char* data, std::size_t size, BacklightOiioBytes* text, char* error,
                              std::size_t error_size) {
   return guarded(error, error_size, [&] { base64(data, size, *text); });
+}
+
+int backlight_oiio_write_v1(unsigned char* rgb, int width, int height, int x, int y, int side, int size,
+                            const float* colour, const char* text, char* error, std::size_t error_size) {
+  return guarded(error, error_size, [&] { write_text(rgb, width, height, x, y, side, size, colour, text); });
 }
 
 void backlight_oiio_free_v1(void* memory) {

@@ -49,6 +49,13 @@ BACKLIGHT_OIIO_EXPORT int backlight_oiio_base64_v1(const char* data, std::size_t
                                                    BacklightOiioBytes* text, char* error,
                                                    std::size_t error_size);
 
+/// Writes a line of UTF-8 text, in the sans serif font that fontconfig finds, into `rgb`, width * height
+/// pixels of 3 bytes. (x, y): on the baseline, the text's left end, middle or right end as `side` is -1, 0
+/// or 1. `size`: in pixels. `colour`: 3 numbers 0..1.
+BACKLIGHT_OIIO_EXPORT int backlight_oiio_write_v1(unsigned char* rgb, int width, int height, int x, int y,
+                                                  int side, int size, const float* colour, const char* text,
+                                                  char* error, std::size_t error_size);
+
 BACKLIGHT_OIIO_EXPORT void backlight_oiio_free_v1(void* memory);
 }
 
@@ -58,4 +65,5 @@ using BacklightOiioDecode = decltype(&backlight_oiio_decode_v1);
 using BacklightOiioEncodePng = decltype(&backlight_oiio_encode_png_v1);
 using BacklightOiioColourMap = decltype(&backlight_oiio_colour_map_v1);
 using BacklightOiioBase64 = decltype(&backlight_oiio_base64_v1);
+using BacklightOiioWrite = decltype(&backlight_oiio_write_v1);
 using BacklightOiioFree = decltype(&backlight_oiio_free_v1);

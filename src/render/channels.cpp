@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <string_view>
 
 #include "pixel_blocks.h"
@@ -47,12 +48,17 @@ constexpr std::array data_channels{
     DataChannel{"samples", "samples.N", [](const R& r) { return static_cast<double>(r.samples); }},
 };
 
+// Of a channel for each light.
+constexpr std::string_view lamp_time = "lampTime";
+
 std::vector<ChannelInfo> channels_of_one_view(const Scene& scene) {
   std::vector<ChannelInfo> channels;
   for (const char* name : {"R", "G", "B", "A"}) channels.push_back({name, ChannelPrecision::half});
   for (const DataChannel& channel : data_channels) {
     if (has_aov(scene, channel.aov)) channels.push_back({channel.name, ChannelPrecision::single});
   }
+  for (std::size_t i = 1; i <= scene.lights.size() && has_aov(scene, lamp_time); ++i)
+    channels.push_back({std::string(lamp_time) + "." + std::to_string(i), ChannelPrecision::single});
   return channels;
 }
 
@@ -75,7 +81,7 @@ bool has_data_channels(const Scene& scene) {
 }
 
 bool has_light_channels(const Scene& scene) {
-  return has_aov(scene, "light");
+  return has_aov(scene, "light") || has_aov(scene, lamp_time);
 }
 
 LinearRgb saturated(const LinearRgb& rgb) {
@@ -91,6 +97,7 @@ PixelWriter::PixelWriter(const Scene& scene, Image& image, std::size_t view)
       first_(view * image.channel_count() / std::max<std::size_t>(image.layout().views.size(), 1)) {
   for (std::size_t c = 0; c < 4; ++c) colour_[c] = image.plane(first_ + c).data();
   if (!has_data_channels(scene)) return;
+  lamp_times_ = has_aov(scene, lamp_time);
   for (const DataChannel& channel : data_channels) {
     if (!has_aov(scene, channel.aov)) continue;
     data_.push_back({channel.value, channel.to_nothing});
@@ -159,6 +166,11 @@ bool PixelWriter::data(int x, int y, const PixelData& data) const {
     const auto stored = static_cast<float>(data_[i].value(data));
     image_->at(first_ + 4 + i, x, y) = stored;
     finite &= std::isfinite(stored) || (data_[i].to_nothing != nullptr && data_[i].to_nothing(data));
+  }
+  for (std::size_t i = 0; lamp_times_ && i < data.lamp_times.size(); ++i) {
+    const auto stored = static_cast<float>(data.lamp_times[i]);
+    image_->at(first_ + 4 + data_.size() + i, x, y) = stored;
+    finite &= std::isfinite(stored) || stored < 0.0F;
   }
   return finite;
 }

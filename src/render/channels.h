@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "backlight/film/image.h"
@@ -21,8 +22,9 @@ bool has_light_channels(const Scene& scene);
 
 /// What the data channels tell of a pixel.
 struct PixelData {
-  SurfaceRecord surface;  ///< of the ray through its centre
-  int samples = 0;        ///< that its colour is the mean of
+  SurfaceRecord surface;               ///< of the ray through its centre
+  int samples = 0;                     ///< that its colour is the mean of
+  std::span<const double> lamp_times;  ///< by light, where they are asked for
 };
 
 /// A colour of which a component passes the greatest float, darkened until that one is the greatest float:
@@ -36,8 +38,8 @@ class PixelWriter {
   PixelWriter(const Scene& scene, Image& image, std::size_t view);
 
   /// Each returns whether all it wrote is finite as a float, or is as it should be: infinitely far, where the
-  /// ray meets nothing. `at`: the image's offset(). A colour beyond the greatest float is written as bright
-  /// as a float can be (`saturated`).
+  /// ray meets nothing; minus infinity, where a light does not reach the point. `at`: the image's offset(). A
+  /// colour beyond the greatest float is written as bright as a float can be (`saturated`).
   bool colour(std::size_t at, const LinearRgb& rgb, double alpha) const {
     float values[4] = {static_cast<float>(rgb.r), static_cast<float>(rgb.g), static_cast<float>(rgb.b),
                        static_cast<float>(alpha)};
@@ -69,6 +71,7 @@ class PixelWriter {
     bool (*to_nothing)(const PixelData&);  // null: it is none
   };
   std::vector<Data> data_;
+  bool lamp_times_ = false;  // asked for
 };
 
 }  // namespace backlight

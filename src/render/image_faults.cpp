@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "backlight/film/compare.h"
@@ -10,22 +11,27 @@
 namespace backlight {
 namespace {
 
-// How great a channel's values may be, and whether they may be infinite: Z is where there is nothing.
+// How great a channel's values may be, and which infinity they may be, or 0: Z is infinite where there is
+// nothing, lampTime minus infinite where a light does not shine.
 struct Allowed {
   bool half;
-  bool infinite;
+  float infinite;
 
   [[nodiscard]] bool is_number(float value) const {
-    return std::isfinite(value) || (infinite && value == std::numeric_limits<float>::infinity());
+    return std::isfinite(value) || (infinite != 0.0F && value == infinite);
   }
 };
+
+float infinity_in(const std::string& channel, const std::vector<std::string>& views) {
+  if (names_channel("Z", channel, views) || names_channel("mirror.Z", channel, views))
+    return std::numeric_limits<float>::infinity();
+  return channel.starts_with("lampTime.") ? -std::numeric_limits<float>::infinity() : 0.0F;
+}
 
 std::vector<Allowed> allowed_in(const ImageLayout& layout) {
   std::vector<Allowed> allowed;
   for (const ChannelInfo& channel : layout.channels) {
-    allowed.push_back({channel.precision == ChannelPrecision::half,
-                       names_channel("Z", channel.name, layout.views) ||
-                           names_channel("mirror.Z", channel.name, layout.views)});
+    allowed.push_back({channel.precision == ChannelPrecision::half, infinity_in(channel.name, layout.views)});
   }
   return allowed;
 }
@@ -35,9 +41,10 @@ bool is_without_fault(const Image& image, const std::vector<Allowed>& allowed) {
   for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
     const Allowed& of = allowed[channel];
     const auto is_number = [&of](float value) { return of.is_number(value); };
-    const bool good = of.infinite ? std::ranges::all_of(image.plane(channel), is_number)
-                                  : all_within(image.plane(channel),
-                                               of.half ? greatest_half : std::numeric_limits<float>::max());
+    const bool good =
+        of.infinite != 0.0F
+            ? std::ranges::all_of(image.plane(channel), is_number)
+            : all_within(image.plane(channel), of.half ? greatest_half : std::numeric_limits<float>::max());
     if (!good) return false;
   }
   return true;

@@ -55,7 +55,12 @@ std::vector<std::string> region_texts(const Scene& scene) {
 void add_lens(std::vector<ExrAttribute>& list, const CameraView& camera) {
   const Lens& lens = camera.lens;
   list.push_back({"backlight/projection", std::string(name_of(lens.projection))});
-  if (has_fov(lens.projection)) list.push_back({"backlight/fov", lens.fov * (180.0 / std::numbers::pi)});
+  if (lens.screen) {
+    const ScreenFilm& film = *lens.screen;
+    list.push_back({"backlight/screen", number_text(film.foot.x) + " " + number_text(film.foot.y) + " " +
+                                            number_text(film.step_x) + " " + number_text(film.step_y)});
+  } else if (has_fov(lens.projection))
+    list.push_back({"backlight/fov", lens.fov * (180.0 / std::numbers::pi)});
 }
 
 // By object the velocity in the camera's frame, as text; empty of matter in motion.
@@ -112,6 +117,12 @@ ExrHeader image_header(const Scene& scene, int wavelengths, const ImageOrigin& o
   list.push_back({"backlight/scene", origin.scene_file});
   list.push_back({"backlight/sceneSha256", origin.scene_sha256});
   if (!origin.overrides.empty()) list.push_back({"backlight/overrides", origin.overrides});
+  if (!scene.parameters.empty()) {
+    std::vector<std::string> parameters;
+    for (const auto& [name, value] : scene.parameters)
+      parameters.push_back(name + " = " + number_text(value));
+    list.push_back({"backlight/params", std::move(parameters)});
+  }
   list.push_back({"backlight/frame", scene.frame});
   list.push_back({"backlight/time", scene.time});
   if (!camera.name.empty()) list.push_back({"backlight/camera", camera.name});

@@ -222,8 +222,9 @@ bool ViewRenderer::data(int x, int y, const SurfaceRecord* known, int samples, T
   const Effects& effects = effects_at(scene, centre);
   const auto ray = camera_ray(scene.camera, centre, effects, eye_);
   SurfaceRecord record = ray ? tracer_.surface(*ray, scratch) : SurfaceRecord{};
-  if (ray && has_light_channels(scene)) tracer_.add_light(*ray, effects, record, scratch);
-  return m.writer->data(x, y, {record, samples});
+  m.lamp_times.assign(scene.lights.size(), -std::numeric_limits<double>::infinity());
+  if (ray && has_light_channels(scene)) tracer_.add_light(*ray, effects, record, m.lamp_times, scratch);
+  return m.writer->data(x, y, {record, samples, m.lamp_times});
 }
 
 }  // namespace backlight

@@ -35,6 +35,7 @@ struct ThreadMemory {
   std::vector<LinearRgb> sums;
   std::vector<ImagePoint> centres;  // of pixels
   std::vector<int> covered;
+  std::vector<double> lamp_times;          // of one pixel
   std::optional<AdaptiveSampler> sampler;  // where the number of samples is chosen
   SampleCounts samples;
   double seconds = 0.0;  // in tiles

@@ -214,6 +214,16 @@ std::vector<Dual> rates_of(const ImageValues& values, double frames_per_second) 
   return rates;
 }
 
+std::vector<std::pair<std::string, double>> parameters_of(const ImageValues& values) {
+  const std::vector<const Entry*> written = values.description.parameters();
+  std::vector<std::pair<std::string, double>> parameters;
+  for (const std::size_t i : values.description.parameter_order) {
+    if (std::isfinite(values.variables[i])) parameters.emplace_back(written[i]->name, values.variables[i]);
+  }
+  std::ranges::sort(parameters);
+  return parameters;
+}
+
 }  // namespace
 
 ImageValues image_values(const Description& description, const ImageRequest& request,
@@ -283,6 +293,7 @@ std::optional<Scene> SceneCompiler::compile(const ImageRequest& request, Diagnos
   ImageValues values = image_values(description_, request, diagnostics);
   scene.time = values.variables[0];
   scene.frame = values.variables[1];
+  scene.parameters = parameters_of(values);
   scene.c = TableView(values, &description_.root, *find_table("")).number("c");
 
   Frames frames(values, scene.c, scene.frames);

@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 #include "aboard.h"
 #include "camera_motion.h"
@@ -75,10 +79,57 @@ void point_lens(const TableView& table, const Vec3& position, bool sound, Lens& 
               "add another, such as up = [0, 0, 1]");
 }
 
+// Reports what is wrong with a screen, seen from `position`; else points the lens at its plane.
+void point_at_screen(const TableView& table, const Vec3& position, const FilmSettings& film, Lens& lens) {
+  const TableView screen = table.table("screen", "camera.screen");
+  const std::size_t errors = table.values().diagnostics.error_count();
+  for (const std::string_view key : {"look_at", "direction", "up", "fov", "stereo"}) {
+    if (table.has(key)) {
+      table.error(key, "a camera with a 'screen' has no '" + std::string(key) + "'",
+                  key == "stereo" ? "give each eye a camera of its own, with the same screen"
+                                  : "the screen and 'position' say what it shows");
+    }
+  }
+  if (table.text("projection") != "perspective")
+    table.error("projection", "a 'screen' needs the projection perspective");
+  const Vec3 corner = screen.vector("lower_left") - position;
+  const Vec3 across = screen.vector("lower_right") - position - corner;
+  const Vec3 upward = screen.vector("upper_left") - position - corner;
+  if (table.values().diagnostics.error_count() > errors || !table.is_sound("position")) return;
+  const double width = glm::length(across);
+  const double height = glm::length(upward);
+  if (!(width > 0.0 && height > 0.0))
+    return table.error("screen", "the screen has no area: two corners are the same");
+  if (!(std::abs(glm::dot(across, upward)) <= 1e-6 * width * height))
+    return table.error("screen",
+                       "the screen is no rectangle: its edges from 'lower_left' are not perpendicular");
+  if (!aim(lens, glm::cross(upward, across), upward)) return table.error("screen", "the screen has no area");
+  const double distance = glm::dot(corner, lens.forward);
+  if (!(std::abs(distance) > 1e-9 * (glm::length(corner) + width)))
+    return table.error("screen", "the camera is in the plane of its screen");
+  if (distance < 0.0) {
+    return table.error("screen", "the camera sees the screen from behind",
+                       "its corners are named as the camera sees them: exchange the left and the right ones");
+  }
+  const double pixel_width = width / film.width;
+  const double pixel_height = height / film.height;
+  lens.screen = {
+      {-glm::dot(corner, lens.right) / pixel_width, film.height + glm::dot(corner, lens.up) / pixel_height},
+      pixel_width / distance,
+      pixel_height / distance};
+}
+
 void read_lens(const TableView& table, const FilmSettings& film, Lens& lens) {
   lens.projection = projection_named(table.text("projection")).value_or(Projection::perspective);
   lens.width = film.width;
   lens.height = film.height;
+  if (lens.projection == Projection::cubemap && !fits_cubemap(film.width, film.height)) {
+    const int edge = std::max(1, (film.width + 1) / 3);
+    table.error("projection",
+                "a cubemap's six faces need a resolution of 3:2, a multiple of 3 wide, not " +
+                    std::to_string(film.width) + "x" + std::to_string(film.height),
+                "such as " + std::to_string(3 * edge) + "x" + std::to_string(2 * edge));
+  }
   const double degrees = table.number("fov");
   if (lens.projection == Projection::perspective && degrees >= 180.0) {
     table.error("fov", "a perspective's 'fov' is " + number_text(degrees) + ", but must be less than 180",
@@ -119,7 +170,10 @@ void compile_camera(Compilation& c) {
   const std::size_t errors = c.values.diagnostics.error_count();
   c.scene.camera.name = table.text("name");
   Vec3 position = table.vector("position");
-  point_lens(table, position, c.values.diagnostics.error_count() == errors, c.scene.camera.lens);
+  const bool has_screen = table.has_valid("screen");
+  if (has_screen) point_at_screen(table, position, c.scene.film, c.scene.camera.lens);
+  if (!has_screen)
+    point_lens(table, position, c.values.diagnostics.error_count() == errors, c.scene.camera.lens);
   if (!ride(c, table) && !fly(c, table) && !follow_path(c, table)) {
     const InertialFrame frame = rest_frame(c, table, position);
     expose(table, frame, position, c.scene);
@@ -133,9 +187,8 @@ void compile_camera(Compilation& c) {
   read_lens(table, c.scene.film, c.scene.camera.lens);
   if (table.has_valid("stereo")) {
     const Projection projection = c.scene.camera.lens.projection;
-    if (projection == Projection::mercator || projection == Projection::fisheye) {
-      table.error("stereo", "two eyes need a perspective or an equirectangular projection");
-    }
+    if (projection == Projection::mercator || projection == Projection::cubemap)
+      table.error("stereo", "two eyes need a perspective, a fisheye or an equirectangular projection");
     c.scene.camera.stereo = Stereo{table.table("stereo", "camera.stereo").number("separation")};
   }
 }

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "compile_motion.h"
 #include "compile_parts.h"
@@ -43,6 +45,22 @@ void take_exposure(double exposure, Light& light) {
   if (takes_strength != light.flickers) light.strength = 1.0;
 }
 
+// The unit direction of a light; a zero one is reported.
+Vec3 read_direction(const TableView& table) {
+  const Vec3 direction = of_size_one(table.vector("direction"));
+  const double length = glm::length(direction);
+  if (length == 0.0) table.error("direction", "'direction' is zero: it points nowhere");
+  return direction / length;
+}
+
+SpotCone read_cone(const TableView& table) {
+  SpotCone cone;
+  if (table.has_valid("direction")) cone.axis = read_direction(table);
+  cone.half_angle = table.number("angle") * (std::numbers::pi / 360.0);
+  cone.edge = table.number("edge");
+  return cone;
+}
+
 void compile_light(Compilation& c, const Node& node) {
   const TableView table(c.values, &node, *find_table("light"));
   Light light;
@@ -60,19 +78,17 @@ void compile_light(Compilation& c, const Node& node) {
   const std::string type = table.text("type");
   if (type == "distant") {
     light.kind = LightKind::distant;
-    if (table.has_valid("direction")) {
-      const Vec3 direction = of_size_one(table.vector("direction"));
-      const double length = glm::length(direction);
-      if (length == 0.0) table.error("direction", "'direction' is zero: it points nowhere");
-      light.direction = direction / length;
-    }
+    if (table.has_valid("direction")) light.direction = read_direction(table);
     read_strength(table, "irradiance", light);
   } else if (type == "ambient") {
     light.kind = LightKind::ambient;
     read_strength(table, "radiance", light);
   } else {
+    if (type == "spot") light.cone = read_cone(table);
     read_strength(table, "intensity", light);
   }
+  const auto& aovs = c.scene.film.aovs;
+  light.tells_time = std::find(aovs.begin(), aovs.end(), "lampTime") != aovs.end();
   take_exposure(c.scene.film.exposure, light);
   c.scene.lights.push_back(std::move(light));
 }

@@ -105,7 +105,7 @@ double star_scale(const Compilation& c, const TableView& background) {
   if (brightness) return illuminance_of_magnitude_0 * *brightness;
   const Lens& lens = c.scene.camera.lens;
   return film_of_faintest / relative_illuminance(faintest_magnitude) *
-         pixel_solid_angle(lens, {0.5 * lens.width, 0.5 * lens.height});
+         pixel_solid_angle(lens, straight_ahead(lens));
 }
 
 void read_stars_key(Compilation& c, const TableView& background) {

@@ -52,9 +52,10 @@ std::string image_words(const Scene& scene) {
 std::string camera_words(const Scene& scene) {
   const CameraView& camera = scene.camera;
   const Lens& lens = camera.lens;
-  static constexpr const char* projections[] = {"perspective", "equirectangular", "mercator", "fisheye"};
-  std::string text = projections[static_cast<std::size_t>(lens.projection)];
-  if (lens.projection == Projection::perspective || lens.projection == Projection::fisheye) {
+  std::string text(name_of(lens.projection));
+  if (lens.screen) {
+    text += " through a screen";
+  } else if (has_fov(lens.projection)) {
     text += ", " + six_digits(lens.fov * 180.0 / std::numbers::pi) + " degrees wide";
   }
   if (camera.stereo) text += ", two eyes " + six_digits(camera.stereo->separation) + " apart";

@@ -13,8 +13,9 @@ KeyTable light() {
       "flickering lamp; below zero the lamp is off. At most one of `temperature`, `color` and `spectrum` is "
       "given; without them, and without `lines`, it is D65, white.",
       {text("name", "For error messages and `-D light.NAME.key=value`."),
-       choice("type", std::string("point"), {"point", "distant", "ambient"},
-              "`point`: a lamp without size. `distant`: parallel light from infinity. `ambient`: the same "
+       choice("type", std::string("point"), {"point", "spot", "distant", "ambient"},
+              "`point`: a lamp without size. `spot`: the same, which shines into a cone. `distant`: parallel "
+              "light from infinity. `ambient`: the same "
               "irradiance on "
               "every surface, in the surface's own rest frame (a convenience; no such light exists), its "
               "strength by the "
@@ -47,22 +48,44 @@ KeyTable light() {
 }
 
 std::vector<KeyTable> light_types() {
-  return {{"light.point",
-           "[[light]]",
-           "A white surface facing it at distance r, at rest, has film Y = intensity/(π r²).",
-           {own(number("intensity", 1.0, "film Y · length²", "Radiant intensity.", at_least(0)))},
-           ""},
-          {"light.distant",
-           "[[light]]",
-           "A white surface facing it, at rest to it, has film Y = irradiance/π.",
-           {numbers("direction", 3, Required{}, "", "Where its light travels to; of any length but zero."),
-            own(number("irradiance", 1.0, "film Y", "Irradiance of a surface that faces it.", at_least(0)))},
-           ""},
-          {"light.ambient",
-           "[[light]]",
-           "A white surface has film Y = radiance from it.",
-           {own(number("radiance", 1.0, "film Y", "Radiance from every side.", at_least(0)))},
-           ""}};
+  return {
+      {"light.point",
+       "[[light]]",
+       "A white surface facing it at distance r, at rest, has film Y = intensity/(π r²).",
+       {own(number("intensity", 1.0, "film Y · length²", "Radiant intensity.", at_least(0)))},
+       ""},
+      {"light.spot",
+       "[[light]]",
+       "A point light whose light leaves within a cone, in the lamp's own frame. Of a lamp in motion the "
+       "cone is "
+       "seen by others as aberration has it: narrower ahead, wider behind.",
+       {numbers(
+            "direction", 3, Required{}, "",
+            "The cone's axis, in the lamp's rest frame; of any length but zero. A lamp on a path or with a "
+            "`rocket` keeps it, along the axes of its frame carried by the pure boost to its velocity."),
+        number("angle", 60.0, "degrees", "The full angle of the cone, beyond which it is dark.",
+               {.least = 0, .greatest = 360, .above_least = true}),
+        number("edge", 0.0, "",
+               "The share of the angle over which the light fades, at the cone's rim; 0 is a sharp edge, 1 "
+               "fades "
+               "from the axis on.",
+               between(0, 1)),
+        own(number(
+            "intensity", 1.0, "film Y · length²",
+            "Radiant intensity within the cone: on its axis it shines as a point light of this intensity.",
+            at_least(0)))},
+       ""},
+      {"light.distant",
+       "[[light]]",
+       "A white surface facing it, at rest to it, has film Y = irradiance/π.",
+       {numbers("direction", 3, Required{}, "", "Where its light travels to; of any length but zero."),
+        own(number("irradiance", 1.0, "film Y", "Irradiance of a surface that faces it.", at_least(0)))},
+       ""},
+      {"light.ambient",
+       "[[light]]",
+       "A white surface has film Y = radiance from it.",
+       {own(number("radiance", 1.0, "film Y", "Radiance from every side.", at_least(0)))},
+       ""}};
 }
 
 KeyTable background() {

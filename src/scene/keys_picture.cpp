@@ -100,10 +100,15 @@ KeyTable film() {
         "`samples.N` is the number of samples that the pixel got. All of that is of the first surface; "
         "`mirror.Z`, `mirror.D`, `mirror.T` and `mirror.V` are the light-travel distance, Doppler factor, "
         "world "
-        "time and object's number of what is seen in it or through it, where it is a mirror or glass.",
+        "time and object's number of what is seen in it or through it, where it is a mirror or glass. "
+        "`lampTime` is a channel for "
+        "each "
+        "light, `lampTime.1` and so on in file order: the light's own time when it sent what lights the "
+        "point (of an "
+        "ambient one the surface's), and -infinity where it does not light it.",
         {},
         {"Z", "doppler", "emissionTime", "properTime", "P", "N", "objectId", "unresolved", "light", "samples",
-         "mirror"}}},
+         "mirror", "lampTime"}}},
       ""};
 }
 
@@ -150,17 +155,23 @@ KeyTable camera() {
             "with the time of the object's frame."),
        number("world_time", Nothing{}, "s", "The world's time of the exposure, instead of `time`."),
        choice("projection", std::string("perspective"),
-              {"perspective", "equirectangular", "mercator", "fisheye"},
+              {"perspective", "equirectangular", "mercator", "fisheye", "cubemap"},
               "`perspective`: straight lines stay straight. `equirectangular`: all directions, longitude "
               "across and "
               "latitude down. `mercator`: all longitudes, angles kept. `fisheye`: equidistant, the distance "
               "from the "
-              "middle is the angle."),
+              "middle is the angle. `cubemap`: six faces of a cube, three across and two down, right, left, "
+              "up; down, "
+              "front, back; the resolution is 3:2."),
        number("fov", 60.0, "degrees",
               "Full horizontal angle of a perspective (less than 180) or a fisheye; the other projections "
               "show all "
               "directions and ignore it.",
               {.least = 0, .greatest = 360, .above_least = true}),
+       structured(
+           "screen", {{ValueKind::table, 0, "camera.screen"}},
+           "A wall or a screen, by three corners: the image is what the eye at `position` sees through it, "
+           "wherever that is. In place of `look_at`, `direction`, `up` and `fov`."),
        structured("stereo", {{ValueKind::table, 0, "camera.stereo"}},
                   "Two eyes: left and right image in one file.")},
       ""};
@@ -192,6 +203,20 @@ KeyTable rocket() {
       ""};
 }
 
+KeyTable screen() {
+  return {"camera.screen",
+          "[camera] screen = { ... }",
+          "Three corners of a rectangle, as the eye sees them, in the coordinates of `position`; corner - "
+          "position is "
+          "read in the camera's frame, as `look_at` is. An eye before each wall of a room makes one picture "
+          "of the "
+          "walls, with no seam between them.",
+          {numbers("lower_left", 3, Required{}, "length", ""),
+           numbers("lower_right", 3, Required{}, "length", ""),
+           numbers("upper_left", 3, Required{}, "length", "")},
+          ""};
+}
+
 KeyTable stereo() {
   return {"camera.stereo",
           "[camera] stereo = { ... }",
@@ -203,7 +228,7 @@ KeyTable stereo() {
 }  // namespace
 
 std::vector<KeyTable> picture_tables() {
-  return {top(), parameters(), animation(), film(), camera(), rocket(), stereo()};
+  return {top(), parameters(), animation(), film(), camera(), rocket(), screen(), stereo()};
 }
 
 }  // namespace backlight::key_builders

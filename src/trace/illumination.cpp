@@ -43,8 +43,12 @@ double LampMoment::own_length() const {
   return boost_by<Source, Source>(velocity)(direction).length;
 }
 
+Vec3 LampMoment::leaving() const {
+  return -boost_by<Source, Source>(velocity)(direction).x;
+}
+
 double LampMoment::strength_time(const Light& light) const {
-  if (!light.flickers) return time;
+  if (!light.flickers && !light.tells_time) return time;
   return light.motion->own_time(light.motion->centre(time).place, time, Mat3(1.0));
 }
 
@@ -171,6 +175,10 @@ std::optional<Arrival> arrival(const Hub& hub, RayInFrames& rays, const SeenPoin
   a.cosine = glm::dot(point.normal, a.to_light);
   if (!(a.cosine > 0.0)) return std::nullopt;
   const auto lamp = boost_by<Source, Source>(way.velocity);
+  if (light.cone) {
+    a.share = light.cone->share(light.motion ? -lamp(way.direction).x : -way.direction.x);
+    if (!(a.share > 0.0)) return std::nullopt;
+  }
   a.doppler = {k.length / (light.motion ? lamp(way.direction).length : way.direction.length)};
   a.gamma = light.motion ? gamma_of_lamp(point, to_surface, lamp) : gamma_between(point, to_surface);
   if (light.kind == LightKind::point) a.inverse_square = inverse_length * inverse_length;

@@ -8,4 +8,7 @@ namespace backlight {
 /// Whether the scene's film asks for them.
 bool records_light(const Scene& scene);
 
+/// Whether they ask for the channels "lampTime".
+bool records_lamp_times(const Scene& scene);
+
 }  // namespace backlight

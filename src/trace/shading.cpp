@@ -22,13 +22,15 @@ void for_each_lamp(const ShadingContext& context, const SeenPoint& point, const 
     const Light& light = scene.lights[i];
     if (light.kind == LightKind::ambient) {
       const double strength = strength_at(light, point.proper_time, scene.c);
-      add(i, pi * strength, 0.0, Arrival{}, LinearRgb{1.0});
+      Arrival everywhere;
+      everywhere.emission_time = point.proper_time;
+      add(i, pi * strength, 0.0, everywhere, LinearRgb{1.0});
       continue;
     }
     const LightView& view = context.hub->lights[i];
     const auto a = arrival(*context.hub, scratch.rays, point, view);
     if (!a) continue;
-    const double strength = strength_at(light, a->emission_time, scene.c);
+    const double strength = strength_at(light, a->emission_time, scene.c) * a->share;
     if (strength == 0.0) continue;
     if (light.shadows) {
       ++scratch.counts.shadow;
@@ -93,6 +95,17 @@ LinearRgb shade_shifted(const ShadingContext& context, const SeenPoint& point, c
         sum += share * reflected_colour(lamp, a.doppler, irradiance, specular);
       });
   return sum;
+}
+
+void lamp_times(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
+                Scratch& scratch, std::vector<double>& times) {
+  const Scene& scene = *context.scene;
+  const int index = material_of(scene, point.hit, point.surface);
+  const Material& material = scene.materials[static_cast<std::size_t>(index)];
+  for_each_lamp(context, point, effects, material, false, scratch,
+                [&](std::size_t light, double irradiance, double, const Arrival& a, const LinearRgb&) {
+                  if (irradiance > 0.0) times[light] = a.emission_time / scene.c;
+                });
 }
 
 int lamps_reaching(const ShadingContext& context, const SeenPoint& point, const Effects& effects,

@@ -55,8 +55,7 @@ struct SheetRays {
 
 /// A Lens of the perspective projection.
 struct LaneLens {
-  double half_width, half_height;
-  double step;  ///< perspective_step()
+  double foot_x, foot_y, step_x, step_y;  ///< film_of()
   double forward[3], right[3], up[3];
 };
 
@@ -170,6 +169,7 @@ struct PointSheet {
   alignas(64) double relative_emission_time[sheet_size];  ///< the same from the camera event's
   // reflect():
   alignas(64) double strength[sheet_size];
+  alignas(64) double spot_share[sheet_size];  ///< of a spot lamp on a path: Arrival::share
   alignas(64) double irradiance[sheet_size];
   alignas(64) double specular[sheet_size];
   alignas(64) double diffuse[3][sheet_size];  ///< film colour under this lamp
@@ -198,6 +198,7 @@ struct LampMeeting {
   double length[8];      ///< of the way
   double own_length[8];  ///< the same in the frame of the lamp's velocity
   double time[8];        ///< by which its strength goes
+  double share[8];       ///< of a spot lamp: Arrival::share; else 1
 };
 
 /// A light as seen from the frame of a sheet's points.

@@ -64,10 +64,10 @@ struct KernelsOf {
 
   static void look(const LaneLens& lens, const double* across, const double* down, SheetRays& rays) {
     const V3 forward(lens.forward), right(lens.right), up(lens.up);
-    const V half_width(lens.half_width), half_height(lens.half_height), step(lens.step);
+    const V foot_x(lens.foot_x), foot_y(lens.foot_y), step_x(lens.step_x), step_y(lens.step_y);
     for (int i = 0; i < rays.padded; i += N) {
-      const V x = (V::load(across + i) - half_width) * step;
-      const V y = (half_height - V::load(down + i)) * step;
+      const V x = (V::load(across + i) - foot_x) * step_x;
+      const V y = (foot_y - V::load(down + i)) * step_y;
       const V3 d = forward + x * right + y * up;
       store3((V(1.0) / length(d)) * d, rays.direction, i);
     }
@@ -477,6 +477,7 @@ struct KernelsOf {
         way_length = V::load(meeting.length);
         own_length = V::load(meeting.own_length);
         V::load(meeting.time).store(p.emission_time + i);
+        V::load(meeting.share).store(p.spot_share + i);
         (V(lamp.time_offset) + relative - way_length).store(p.relative_emission_time + i);
       } else if (lamp.distant) {
         way = -V3(lamp.direction);

@@ -43,6 +43,7 @@ void meet_lamp(const Light& light, int count, const double (*place)[8], const do
     meeting.length[i] = moment.direction.length;
     meeting.own_length[i] = moment.own_length();
     meeting.time[i] = moment.strength_time(light);
+    meeting.share[i] = light.cone ? light.cone->share(moment.leaving()) : 1.0;
   }
 }
 
@@ -187,7 +188,7 @@ bool SheetShader::find_celerities() {
 
 void SheetShader::fill_strength(const Light& light) {
   PointSheet& p = work_.points;
-  if (!light.flickers) {
+  if (!light.flickers && !light.cone) {
     std::fill_n(p.strength, p.padded, light.strength);
     if (light.strength == 0.0 && light.kind != LightKind::ambient) std::fill_n(p.lit, p.padded, 0.0);
     return;
@@ -197,6 +198,10 @@ void SheetShader::fill_strength(const Light& light) {
     p.strength[i] = 0.0;
     if (!(p.lit[i] > 0.0)) continue;
     p.strength[i] = strength_at(light, time[i], tracer_.scene().c);
+    if (light.cone) {
+      const Vec3 leaving = -Vec3{p.way[0][i], p.way[1][i], p.way[2][i]};
+      p.strength[i] *= light.motion ? p.spot_share[i] : light.cone->share(leaving);
+    }
     if (p.strength[i] == 0.0 && light.kind != LightKind::ambient) p.lit[i] = 0.0;
   }
 }
@@ -243,7 +248,7 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
     return true;
   }
   std::uint64_t lit = sheets_.kernels().arrive(lane_lamp(index, entry_->frame), p);
-  if (light.flickers || light.strength == 0.0) {
+  if (light.flickers || light.strength == 0.0 || light.cone) {
     fill_strength(light);
     lit = lit_points();
   }
@@ -252,7 +257,7 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
     scratch_.counts.shadow += static_cast<std::uint64_t>(__builtin_popcountll(lit));
     shadow(index);
   }
-  reflection.same_strength = !light.flickers;
+  reflection.same_strength = !light.flickers && !light.cone;
   reflection.strength = light.strength;
   reflection.brightness = lane_brightness(effects.brightness);
   reflection.distant = light.kind == LightKind::distant;

@@ -104,7 +104,7 @@ class SheetMaker {
       for (auto& row : rays.direction) row[lane] = row[rays.count - 1];
     }
     if (flat) {
-      LaneLens lanes{0.5 * lens.width, 0.5 * lens.height, step_, {}, {}, {}};
+      LaneLens lanes{film_.foot.x, film_.foot.y, film_.step_x, film_.step_y, {}, {}, {}};
       for (int k = 0; k < 3; ++k) {
         lanes.forward[k] = lens.forward[k];
         lanes.right[k] = lens.right[k];
@@ -132,7 +132,7 @@ class SheetMaker {
   const SheetKernels& kernels_;
   SheetScratch& work_;
   std::size_t used_ = 0;
-  double step_ = perspective_step(scene_.camera.lens);
+  ScreenFilm film_ = film_of(scene_.camera.lens);
   // The points of up to a sheet of pixels.
   int count_ = 0;
   alignas(64) double x_[sheet_size];

@@ -214,14 +214,62 @@ TEST(Sheets, AreTheLawInTreesOfFrames) {
 }
 
 TEST(Sheets, AreTheLawInEveryProjection) {
-  for (const char* projection : {"equirectangular", "mercator", "fisheye"}) {
+  for (const char* projection : {"equirectangular", "mercator", "fisheye", "cubemap"}) {
     expect_the_law(scene_of({.spheres = 60,
                              .gamma = 3.0,
-                             .width = 64,
+                             .width = 72,
                              .height = 48,
                              .camera = std::string("projection = \"") + projection + "\"\n"}),
                    three_colours);
   }
+}
+
+TEST(Sheets, AreTheLawThroughAScreen) {
+  std::string scene = scene_of({.spheres = 60, .gamma = 3.0, .width = 64, .height = 48});
+  const std::string aim = "look_at = [0, 0, 0]\n";
+  scene.replace(
+      scene.find(aim), aim.size(),
+      "screen = { lower_left = [3, -2, -6], lower_right = [-5, -2, -5], upper_left = [3, 4, -6] }\n");
+  expect_the_law(scene, three_colours);
+}
+
+// Spot lamps at rest, passing, on a path and flickering, of which each lights a part.
+TEST(Sheets, AreTheLawUnderSpotLamps) {
+  const std::string lamps = R"toml(
+[[light]]
+type = "spot"
+position = [2, 5, -4]
+direction = [-1, -4, 2]
+angle = 50
+edge = 0.3
+intensity = "80 + 30*sin(5*t)"
+[[light]]
+type = "spot"
+position = [-4, 4, -6]
+beta = [0.5, -0.1, 0.3]
+direction = [1, -1, 1]
+angle = 80
+edge = 1
+intensity = 90
+[[light]]
+type = "spot"
+position = ["2*cos(0.4*t)", 4, "2*sin(0.4*t) - 3"]
+direction = [0, -1, 0]
+angle = 100
+intensity = 60
+[[light]]
+type = "spot"
+position = [0, 3, -4]
+gamma = 50
+along = [1, 0, 1]
+direction = [0, -1, 0.5]
+angle = 120
+edge = 0.5
+intensity = 40
+)toml";
+  const Field field{.spheres = 60, .gamma = 2.0, .width = 64, .height = 48, .more = lamps};
+  expect_the_law(scene_of(field));
+  expect_the_law(scene_of(field), three_colours);
 }
 
 TEST(Sheets, AreTheLawForAMovingCameraAndManySamples) {
@@ -235,7 +283,7 @@ TEST(Sheets, AreTheLawForAMovingCameraAndManySamples) {
 }
 
 TEST(Sheets, AreTheLawForStereoPairs) {
-  for (const char* projection : {"perspective", "equirectangular"}) {
+  for (const char* projection : {"perspective", "equirectangular", "fisheye"}) {
     expect_the_law(scene_of({.spheres = 60,
                              .gamma = 3.0,
                              .width = 40,

@@ -149,7 +149,7 @@ TEST_F(Usage, WrongLinesAreExplained) {
        render},
       {{"scene.toml", "--aov", "Z,dopler"},
        "--aov: expected one of Z, doppler, emissionTime, properTime, P, N, objectId, unresolved, light, "
-       "samples, mirror, all, "
+       "samples, mirror, lampTime, all, "
        "none, not "
        "'dopler'; did you "
        "mean 'doppler'?",

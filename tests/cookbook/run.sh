@@ -7,7 +7,7 @@ top=$(cd "$(dirname "$0")/../.." && pwd)
 program=$(realpath "$1")
 rm -rf "$2" && mkdir -p "$2/scripts" "$2/bin" && cd "$2"
 ln -s "$top/scenes" scenes
-cp "$top"/scripts/{video,find_program}.sh scripts/
+cp "$top"/scripts/{video,find_program}.sh "$top/scripts/spherical.py" scripts/
 # In the PATH and nowhere else: there is no build folder here for a script to fall back on.
 ln -s "$program" bin/backlight
 export PATH="$PWD/bin:$PATH" BACKLIGHT_MODULE_PATH=${BACKLIGHT_MODULE_PATH:-$(dirname "$program")/../lib/backlight}
@@ -32,6 +32,26 @@ cmp -s out/left.png out/right.png && { echo "both eyes see the same" >&2 && exit
 grep -q "2 images, 2 equal" recipe-5.log || { echo "the suite is not equal" >&2 && exit 1; }
 [[ -s out/report.html ]] || { echo "no report" >&2 && exit 1; }
 awk '/shifted/ { exit !($6 > 500) }' recipe-7.log || { echo "no pixel was shifted out of the visible" >&2 && exit 1; }
+
+# The metadata that players look for, and the pictures as they were.
+expect out/around.mp4 256,256,6, "$(size out/around.mp4)"  # and side data
+sides=$(ffprobe -v error -select_streams v -show_streams out/around.mp4)
+[[ $sides == *"type=top and bottom"* && $sides == *"projection=equirectangular"* ]] || { echo "not spherical: $sides" >&2 && exit 1; }
+grep -aq "<GSpherical:StereoMode>top-bottom" out/around.mp4 || { echo "no V1 metadata" >&2 && exit 1; }
+ffmpeg -v error -i out/around.mp4 -f null - || { echo "the marked video cannot be decoded" >&2 && exit 1; }
+status=0 && message=$(scripts/video.sh out/lamp/*.exr -o out/flat.mp4 --spherical 2>&1) || status=$?
+expect "status of a flat video" 2 "$status"
+[[ $message == *"the frames are perspective"* && ! -e out/flat.mp4 ]] || { echo "flat: $message" >&2 && exit 1; }
+
+# A cubemap is what ffmpeg takes it for: its panorama is ours, but for edges.
+for face in right left up down front back; do expect "out/cube.$face.png" 64,64,1 "$(size "out/cube.$face.png")"; done
+backlight scenes/first.toml -q -r 256x128 -s 4 -D 'camera.projection="equirectangular"' -o out/sphere.exr
+backlight view out/sphere.exr --tone none -o out/sphere.png
+likeness=$(ffmpeg -v info -i out/from-cube.png -i out/sphere.png -lavfi psnr -f null - 2>&1 | sed -n 's/.*average:\([0-9.]*\).*/\1/p')
+awk -v p="$likeness" 'BEGIN { exit !(p > 24) }' || { echo "the cubemap is another panorama: PSNR $likeness" >&2 && exit 1; }
+
+expect out/lamps.png 240,420,1 "$(size out/lamps.png)"
+expect out/theatre.png 288,192,1 "$(size out/theatre.png)"
 
 # A hole in the sequence is refused, and named; so is a frame there twice.
 rm out/lamp/lamp.0005.exr out/lamp/lamp.0007.exr

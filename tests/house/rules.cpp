@@ -17,15 +17,17 @@ struct Library {
   bool in_one_file;
 };
 
-constexpr std::array<Library, 9> libraries{{{"GLM", "glm/", false},
-                                            {"OpenEXR", "OpenEXR/", false},
-                                            {"OpenEXR", "Imath/", false},
-                                            {"OpenImageIO", "OpenImageIO/", true},
-                                            {"assimp", "assimp/", true},
-                                            {"tinyobjloader", "tiny_obj_loader.h", true},
-                                            {"toml++", "toml++/", false},
-                                            {"CLI11", "CLI/", true},
-                                            {"nlohmann", "nlohmann/", true}}};
+constexpr std::array<Library, 11> libraries{{{"GLM", "glm/", false},
+                                             {"OpenEXR", "OpenEXR/", false},
+                                             {"OpenEXR", "Imath/", false},
+                                             {"OpenImageIO", "OpenImageIO/", true},
+                                             {"assimp", "assimp/", true},
+                                             {"tinyobjloader", "tiny_obj_loader.h", true},
+                                             {"FreeType", "freetype/", true},
+                                             {"fontconfig", "fontconfig/", true},
+                                             {"toml++", "toml++/", false},
+                                             {"CLI11", "CLI/", true},
+                                             {"nlohmann", "nlohmann/", true}}};
 
 const Library* library_of(std::string_view header) {
   const auto* found = std::find_if(libraries.begin(), libraries.end(),

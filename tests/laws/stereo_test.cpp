@@ -32,6 +32,25 @@ TEST(Stereo, EyesAreTheSeparationApartAlongTheCamerasRight) {
   }
 }
 
+// Of a dome, both eyes look at the same place of it, and are apart as everywhere.
+TEST(Stereo, EyesUnderADomeAreTheSeparationApart) {
+  const Rendering r = render_text(film(16, 16) +
+                                  "[camera]\nposition = [0, 0, 0]\ndirection = [0, 1, 0]\nup = [0, 0, 1]\n"
+                                  "projection = \"fisheye\"\nfov = 180\nstereo = { separation = 0.5 }\n"
+                                  "[[object]]\nshape = \"plane\"\nposition = [0, 6, 0]\n");
+  int seen = 0;
+  for (int y = 2; y < 14; ++y) {
+    for (int x = 2; x < 14; ++x) {
+      const Vec3 left = position_of(r, "left", x, y), right = position_of(r, "right", x, y);
+      if (left == Vec3{0.0}) continue;
+      ++seen;
+      // right = forward × up = +x
+      EXPECT_LT(glm::length(right - left - Vec3{0.5, 0.0, 0.0}), 2e-5) << x << ' ' << y;
+    }
+  }
+  EXPECT_GT(seen, 80);
+}
+
 TEST(Stereo, TheEyesOfAMovingCameraAreApartInItsOwnFrame) {
   // In the world's frame a camera moving along its right has its eyes apart by less, and one ahead in time;
   // what a wall at rest shows under both is where those two past light cones meet it.

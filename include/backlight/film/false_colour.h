@@ -9,8 +9,10 @@
 
 namespace backlight {
 
-/// The maps of matplotlib of these names (S. van der Walt and N. Smith 2015), of even lightness steps.
-enum class ColourMap { inferno, viridis };
+/// `inferno` and `viridis` are the maps of matplotlib of these names (S. van der Walt and N. Smith 2015), of
+/// even lightness steps. `shift` goes from dark red over white at 0.5 to dark blue, equally dark on both
+/// sides: told apart by all who see red and green alike, and by lightness from the middle.
+enum class ColourMap { inferno, viridis, shift };
 
 /// Values 0..1, row after row, as sRGB colours of the map; what lies beyond is cut. NaN becomes magenta and
 /// infinity cyan, which are in neither map.

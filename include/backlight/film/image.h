@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -61,6 +62,11 @@ struct ImageLayout {
 /// (Imf::insertViewName). The first view is the default one: its channels without a layer keep their plain
 /// names ("R"; "right.R" in the other). Channels with a layer carry the view in both: "doppler.left.D".
 std::string channel_name(std::string_view name, const std::vector<std::string>& views, std::size_t view);
+
+/// The name without the view, of a channel of view number `view`: "doppler.D". Nothing where the channel is
+/// none of that view's. The inverse of channel_name.
+std::optional<std::string> plain_name(std::string_view channel, const std::vector<std::string>& views,
+                                      std::size_t view);
 
 /// The channels `base` for each of `views`, view after view, with the views' names inserted.
 std::vector<ChannelInfo> channels_of_views(const std::vector<ChannelInfo>& base,

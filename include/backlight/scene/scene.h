@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "backlight/base/shared_vector.h"
@@ -116,6 +117,18 @@ bool has_own_light(const Material& material);
 
 enum class LightKind { point, distant, ambient };
 
+/// What of a point light's directions a spot lamp shines into: those within a cone, in the lamp's own frame,
+/// whose axes are its base frame's carried by the pure boost.
+struct SpotCone {
+  Vec3 axis{0.0, -1.0, 0.0};  ///< unit, of its light
+  double half_angle = 0.5;    ///< in (0, pi]; beyond it is dark
+  double edge = 0.0;          ///< 0..1: the share of that angle over which the light fades, at its end
+
+  /// The share of the full intensity that leaves along `direction`, of any length: 1 up to (1 - edge) of the
+  /// angle, then s²(3 - 2s) of what is left of the edge (docs/physics.md equation (12a)).
+  [[nodiscard]] double share(const Vec3& direction) const;
+};
+
 /// A light in its rest frame.
 struct Light {
   LightKind kind = LightKind::point;
@@ -124,6 +137,7 @@ struct Light {
   Vec3 position{0.0};  ///< point: in that frame's coordinates
   /// Point: of a lamp on a path, whose world line is that of the origin of the motion's ball; null: at rest.
   std::shared_ptr<const MatterMotion> motion;
+  std::optional<SpotCone> cone;    ///< point: it shines into this alone
   Vec3 direction{0.0, -1.0, 0.0};  ///< distant: the unit direction in which the light travels, in that frame
   Colour colour;                   ///< spectrum of unit strength
   /// Strength as a function of the light's own (frame) time: intensity of a point light, irradiance of a
@@ -132,6 +146,7 @@ struct Light {
   double strength = 1.0;
   bool shadows = true;  ///< whether what is in its way hides it; an ambient light's never does
   bool flickers = false;
+  bool tells_time = false;  ///< the data channels want its own time, though its strength may not depend on it
   Expression strength_of_time;  ///< of t in scene seconds, when it flickers
                                 ///< in scene seconds
 };
@@ -239,7 +254,9 @@ struct CompileCounts {
 struct Scene {
   double time = 0.0;   ///< t of the image, in scene seconds: what expressions see
   double frame = 1.0;  ///< number of the image in the animation; not whole for a time between two of them
-  double c = 1.0;      ///< scene units of length per second; divides reported times
+  /// Those of [params] by name, with their values at the image's time, as far as they are finite.
+  std::vector<std::pair<std::string, double>> parameters;
+  double c = 1.0;                  ///< scene units of length per second; divides reported times
   std::vector<SceneFrame> frames;  ///< distinct frames; [0] is the world
   SharedVector<Object> objects;
   SharedVector<Material> materials;

@@ -44,6 +44,8 @@ struct LampMoment {
 
   /// Of `direction` in the frame of the lamp's velocity.
   [[nodiscard]] double own_length() const;
+  /// Its light's direction in that frame, of any length.
+  [[nodiscard]] Vec3 leaving() const;
   /// By which its strength goes: its own time, if that matters.
   [[nodiscard]] double strength_time(const Light& light) const;
 };
@@ -54,6 +56,7 @@ struct Arrival {
   DopplerFactor<Rest, Source> doppler;  ///< frequency at the surface over frequency at the lamp
   double gamma = 1.0;                   ///< of the lamp's velocity relative to the matter
   double emission_time = 0.0;           ///< the lamp's own time when this light left it (times c)
+  double share = 1.0;                   ///< of a spot lamp's strength, that leaves in this direction; > 0
   double cosine = 0.0;                  ///< of the angle of incidence, in the surface's frame; > 0
   double inverse_square = 1.0;          ///< 1/r², r the length of the null segment in the surface's frame
   Vec3 to_light{0.0};                   ///< unit, in the surface's frame

@@ -82,4 +82,9 @@ LinearRgb shade_shifted(const ShadingContext& context, const SeenPoint& point, c
 int lamps_reaching(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
                    Scratch& scratch);
 
+/// Each light's own time, in scene seconds, when it sent what reaches a seen point, into `times`, by light;
+/// those that do not reach it are left as they are.
+void lamp_times(const ShadingContext& context, const SeenPoint& point, const Effects& effects,
+                Scratch& scratch, std::vector<double>& times);
+
 }  // namespace backlight

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "backlight/trace/relays.h"
 #include "backlight/trace/sky.h"
@@ -71,9 +72,11 @@ class Tracer {
   /// The same when it is known what that is.
   SurfaceRecord surface_of(const CameraRay& ray, const FirstHit& hit, Scratch& scratch) const;
 
-  /// Fills `lamps` and `unshifted` of the record of the same ray. Needs the data channels "light" in the
-  /// scene's film.
-  void add_light(const CameraRay& ray, const Effects& effects, SurfaceRecord& record, Scratch& scratch) const;
+  /// What the scene's film asks for of the data channels "light", `lamps` and `unshifted` of the record of
+  /// the same ray, and "lampTime": by light, its own time when it sent what reaches the point, left as it is
+  /// where it does not.
+  void add_light(const CameraRay& ray, const Effects& effects, SurfaceRecord& record,
+                 std::vector<double>& times, Scratch& scratch) const;
 
   /// The stars of pixel (x, y) of the full image that no object hides from this eye.
   LinearRgb stars(int x, int y, int eye, Scratch& scratch) const;

@@ -58,7 +58,7 @@ TEST_P(EveryProjection, SolidAngleIsTheJacobianOfTheDirection) {
 
 INSTANTIATE_TEST_SUITE_P(Projections, EveryProjection,
                          testing::Values(Projection::perspective, Projection::equirectangular,
-                                         Projection::mercator, Projection::fisheye));
+                                         Projection::mercator, Projection::fisheye, Projection::cubemap));
 
 TEST(Projection, PerspectiveFollowsTheSceneFormat) {
   Lens lens;
@@ -73,6 +73,84 @@ TEST(Projection, PerspectiveFollowsTheSceneFormat) {
   EXPECT_DOUBLE_EQ(d.x, -0.75 / norm);
   EXPECT_DOUBLE_EQ(d.y, 0.25 / norm);
   EXPECT_DOUBLE_EQ(d.z, 1.0 / norm);
+}
+
+// Six cameras of 90 degrees, to the bit: (2x/a - 1, 1 - 2y/a) on each face of a pixels.
+TEST(Projection, ACubemapsFacesAreItsSixPerspectives) {
+  Lens lens = lens_of(Projection::cubemap);
+  const double edge = 30.0;
+  struct Face {
+    int column, row;
+    Vec3 forward, right, up;
+  };
+  const Vec3 f = lens.forward, r = lens.right, u = lens.up;
+  for (const Face& face : {Face{0, 0, r, -f, u}, Face{1, 0, -r, f, u}, Face{2, 0, u, r, -f},
+                           Face{0, 1, -u, r, f}, Face{1, 1, f, r, u}, Face{2, 1, -f, -r, u}}) {
+    for (int j = 0; j < 30; j += 7) {
+      for (int i = 0; i < 30; i += 4) {
+        const double x = 2.0 * (i + 0.5) / edge - 1.0;
+        const double y = 1.0 - 2.0 * (j + 0.5) / edge;
+        const Vec3 d = face.forward + x * face.right + y * face.up;
+        const Vec3 expected = d * (1.0 / glm::length(d));
+        const Vec3 found = *direction_at(lens, {face.column * edge + i + 0.5, face.row * edge + j + 0.5});
+        EXPECT_EQ(found, expected) << face.column << face.row << ' ' << i << ' ' << j;
+      }
+    }
+  }
+}
+
+TEST(Projection, EveryDirectionIsOnACubemap) {
+  Lens lens = lens_of(Projection::cubemap);
+  lens.width = 900;
+  lens.height = 600;
+  double sum = 0.0;
+  for (int j = 0; j < 600; ++j) {
+    for (int i = 0; i < 900; ++i) sum += pixel_solid_angle(lens, {i + 0.5, j + 0.5});
+  }
+  EXPECT_NEAR(sum, 4.0 * pi, 1e-4);
+  for (double a = 0.1; a < 6.3; a += 0.3) {
+    for (double b = -1.5; b < 1.6; b += 0.2) {
+      const Vec3 d{std::cos(a) * std::cos(b), std::sin(b), std::sin(a) * std::cos(b)};
+      const auto p = point_of(lens, d);
+      ASSERT_TRUE(p);
+      EXPECT_LT(glm::length(*direction_at(lens, *p) - d), 1e-14);
+    }
+  }
+  // Corners and edges of the cube belong to a face, too.
+  for (const Vec3& d :
+       {lens.forward + lens.right, lens.up - lens.forward, lens.forward + lens.right + lens.up})
+    EXPECT_TRUE(point_of(lens, glm::normalize(d)));
+}
+
+TEST(Projection, AScreenStraightAheadIsAPerspective) {
+  Lens lens = lens_of(Projection::perspective);
+  const Lens plain = lens;
+  const ScreenFilm film = film_of(plain);
+  lens.screen = film;
+  for (const ImagePoint p : {ImagePoint{0.5, 0.5}, ImagePoint{33.5, 41.5}, ImagePoint{89.5, 12.5}}) {
+    EXPECT_EQ(*direction_at(lens, p), *direction_at(plain, p));
+    EXPECT_EQ(pixel_solid_angle(lens, p), pixel_solid_angle(plain, p));
+  }
+}
+
+TEST(Projection, AScreenOffTheAxisIsLookedThrough) {
+  Lens lens = lens_of(Projection::perspective);
+  lens.screen = ScreenFilm{{130.0, -20.0}, 0.02, 0.05};
+  for (const ImagePoint p : {ImagePoint{0.5, 0.5}, ImagePoint{33.5, 41.5}, ImagePoint{89.5, 12.5}}) {
+    const Vec3 d = lens.forward + (p.x - 130.0) * 0.02 * lens.right + (-20.0 - p.y) * 0.05 * lens.up;
+    EXPECT_EQ(*direction_at(lens, p), d * (1.0 / glm::length(d)));
+    const auto again = point_of(lens, *direction_at(lens, p));
+    ASSERT_TRUE(again);
+    EXPECT_NEAR(again->x, p.x, 1e-11);
+    EXPECT_NEAR(again->y, p.y, 1e-11);
+  }
+  EXPECT_EQ(straight_ahead(lens).x, 130.0);
+}
+
+TEST(Projection, NamesAreThoseOfTheSceneFormat) {
+  for (const char* name : {"perspective", "equirectangular", "mercator", "fisheye", "cubemap"})
+    EXPECT_EQ(name_of(*projection_named(name)), name);
+  EXPECT_FALSE(projection_named("cube").has_value());
 }
 
 TEST(Projection, EquirectangularCentreIsForwardAndTopIsUp) {
