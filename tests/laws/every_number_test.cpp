@@ -108,6 +108,20 @@ void add_picture(std::vector<Case>& all) {
   all.push_back({"camera.time", plain_red, {"camera.time=@"}, "1.5", "3"});
   all.push_back({"camera.world_time", plain_red, {"camera.world_time=@"}, "1.5", "3"});
   all.push_back({"camera.fov", plain_red, {"camera.fov=@"}, "60", "48"});
+  const auto screen = [&all](const char* corner, const char* corners, const char* first, const char* second) {
+    all.push_back({std::string("camera.screen.") + corner,
+                   plain_red,
+                   {std::string("camera.screen={ ") + corners + " }"},
+                   first,
+                   second});
+  };
+  // The lower left one stays on the circle over the other two: a right angle.
+  screen("lower_left", "lower_left = @, lower_right = [-1, -0.75, -3], upper_left = [1, 0.75, -3]",
+         "[0.75, -1, -3]", "[1, -0.75, -3]");
+  screen("lower_right", "lower_left = [1, -1, -3], lower_right = @, upper_left = [1, 1, -3]", "[-1, -1, -3]",
+         "[-2, -1, -3]");
+  screen("upper_left", "lower_left = [1, -1, -3], lower_right = [-1, -1, -3], upper_left = @", "[1, 1, -3]",
+         "[1, 2, -3]");
   all.push_back({"camera.stereo.separation", plain_red, {"camera.stereo={ separation = @ }"}, "0.25", "0.5"});
   const std::string ship = "[frame.ship]\nbeta = [0, 0, 0.125]\n" + plain_red;
   all.push_back({"rocket.acceleration",
@@ -136,6 +150,11 @@ void add_lights(std::vector<Case>& all) {
                  {},
                  "[0, -1, 0]",
                  "[0.5, -1, 0.25]"});
+  const std::string spot = "type = \"spot\"\nposition = [1, 4, -4]\nintensity = 50\n";
+  all.push_back(
+      {"light.spot.direction", lamp(spot + "edge = 1\ndirection = @"), {}, "[0, -1, 0.5]", "[-0.25, -1, 1]"});
+  all.push_back({"light.spot.angle", lamp(spot + "direction = [-0.25, -1, 1]\nangle = @"), {}, "40", "70"});
+  all.push_back({"light.spot.edge", lamp(spot + "direction = [-0.25, -1, 1]\nedge = @"), {}, "0.25", "0.75"});
   add_motion(all, "light", lamp("position = [1, 4, -4]\nintensity = 50"), "");
   all.push_back(
       {"background.color", plain_red, {"background.color=@"}, "[0.5, 0.25, 0.25]", "[0.25, 0.25, 1]"});
@@ -287,6 +306,7 @@ const std::map<std::string, std::string>& exceptions() {
       {"animation.fps", "t is made of it"},
       {"animation.frames", "t is made of it"},
       {"light.point.intensity", "t is the lamp's own time: blinking_lamp_test.cpp"},
+      {"light.spot.intensity", "t is the lamp's own time, as of a point light"},
       {"light.distant.irradiance", "t is the lamp's own time"},
       {"light.ambient.radiance", "t is the time of the surface's frame"},
       {"object.implicit.f", "t is the object's own time"},
