@@ -5,6 +5,8 @@
 #include <iterator>
 #include <limits>
 
+#include "backlight/surface/encloses.h"
+
 namespace backlight {
 
 Media beyond(const Media& media, const Medium& of, bool entering) {
@@ -56,23 +58,35 @@ struct Crossing {
   double doubt;   // of λ
 };
 
-// All of one surface with a line, in order, up to `end`.
+// All of one surface with a line, in order, up to `end`; if there is none, the next beyond, which tells
+// whether the line is inside. Infinity of a body without bounds that it is in and never leaves.
 void add_crossings(const SurfaceSet& surfaces, const GlassSurface& of, const Vec3& origin,
                    const Vec3& direction, const RayClock& clock, double end,
                    std::vector<Crossing>& crossings) {
+  constexpr double never = std::numeric_limits<double>::infinity();
   const double length = glm::length(direction);
-  double from = 0.0;
-  while (from < end) {
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  double from = 0.0, skip = 0.0;
+  bool any = false;
+  do {
     const Vec3 start = origin + from * direction;
     const RayClock then{clock.start + from * clock.rate, clock.rate};
     const Hit hit = surfaces.first_crossing_of(of.surface, start, direction, then);
-    if (!hit.found() || !(from + hit.lambda < end)) return;
+    if (any && !(from + hit.lambda < end)) return;
+    if (!hit.found()) {
+      if (!any && std::isinf(surfaces.bounds(of.surface).radius) && encloses(surfaces, of.surface, origin))
+        crossings.push_back({never, &of, false, 1.0, 0.0});
+      return;
+    }
+    any = true;
     const SurfacePoint point = surfaces.resolve(hit, start, direction, then);
     const double cosine = glm::dot(point.normal, direction) / length;
     const double doubt = 2.0 * point.error_bound / (length * std::max(std::abs(cosine), 1e-3));
     crossings.push_back({from + hit.lambda, &of, cosine < 0.0, std::abs(cosine), doubt});
-    from += hit.lambda + doubt;
-  }
+    // A line that grazes the surface is within the doubt for long: steps grow until it is off.
+    skip = std::max({doubt, rounding * from, hit.lambda <= skip ? 2.0 * skip : 0.0});
+    from += hit.lambda + skip;
+  } while (from < end);
 }
 
 // The glass around where a line begins: what it leaves before it enters.
@@ -90,14 +104,14 @@ Media around_start(const std::vector<Crossing>& crossings) {
 
 }  // namespace
 
-Media media_at(const Scene& scene, const std::vector<GlassSurface>& surfaces, int frame,
-               const Event<Rest>& event) {
+Media media_at_camera(const Scene& scene, const std::vector<GlassSurface>& surfaces, const Hub& hub) {
   std::vector<Crossing> crossings;
   const Vec3 way{0.36, 0.48, 0.8};  // any
-  const SurfaceSet& set = *scene.frames[static_cast<std::size_t>(frame)].surfaces;
   for (const GlassSurface& of : surfaces) {
-    if (of.frame != frame) continue;
-    add_crossings(set, of, event.x, way, {event.t, 0.0}, std::numeric_limits<double>::infinity(), crossings);
+    const auto frame = static_cast<std::size_t>(of.frame);
+    const FrameView& view = hub.frames[frame];
+    if (!view.from_camera.is_identity()) continue;
+    add_crossings(*scene.frames[frame].surfaces, of, view.camera_event.x, way, {}, 0.0, crossings);
   }
   std::ranges::stable_sort(crossings, {}, &Crossing::lambda);
   return around_start(crossings);
@@ -171,7 +185,8 @@ LinearRgb transmitted(const std::vector<GlassSurface>& surfaces, const Hub& hub,
   };
   Media media = around_start(crossings);
   double from = 0.0;
-  for (auto crossing = crossings.begin(); crossing != crossings.end();) {
+  const double end = arrival.segment.end;
+  for (auto crossing = crossings.begin(); crossing != crossings.end() && crossing->lambda < end;) {
     absorb(media, from, crossing->lambda);
     const double cosine = crossing->cosine;
     from = crossing->lambda;
@@ -191,7 +206,7 @@ LinearRgb transmitted(const std::vector<GlassSurface>& surfaces, const Hub& hub,
     share *= 1.0 - part(looking, {0.0, 0.0, 1.0}, low, high).reflected;
     media = next;
   }
-  absorb(media, from, arrival.segment.end);
+  absorb(media, from, end);
   return share;
 }
 

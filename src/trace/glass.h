@@ -50,9 +50,8 @@ struct GlassSurface {
 /// All of the scene.
 std::vector<GlassSurface> glass_surfaces(const Scene& scene);
 
-/// The glass that an event of a frame, at rest in it, is in.
-Media media_at(const Scene& scene, const std::vector<GlassSurface>& surfaces, int frame,
-               const Event<Rest>& event);
+/// The glass that the camera is in: at rest to it, or the scene would not have been compiled.
+Media media_at_camera(const Scene& scene, const std::vector<GlassSurface>& surfaces, const Hub& hub);
 
 /// What begins where a surface of glass ends.
 struct Contact {

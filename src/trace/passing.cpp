@@ -70,21 +70,7 @@ void Tracer::find_glass() {
   }
   faintest_ = half_step / brightest;
   if (scene_->film.tolerance > 0.0) faintest_ = std::min(half_step, scene_->film.tolerance) / brightest;
-  find_camera_media();
-}
-
-void Tracer::find_camera_media() {
-  for (const int frame : hub_.occupied) {
-    const FrameView& view = hub_.frames[static_cast<std::size_t>(frame)];
-    Media media = media_at(*scene_, *glass_, frame, view.camera_event);
-    if (media.empty()) continue;
-    const Medium& around = media.back();
-    if (!view.from_camera.is_identity())
-      throw std::runtime_error("the camera moves relative to the glass of " +
-                               name_of(object_of(*scene_, around.frame, around.surface)) +
-                               ", and is in it: what is in glass must be at rest in its frame");
-    camera_media_ = std::make_shared<const std::vector<Medium>>(std::move(media));
-  }
+  camera_media_ = std::make_shared<const std::vector<Medium>>(media_at_camera(*scene_, *glass, hub_));
 }
 
 bool Tracer::camera_is_in_glass() const {

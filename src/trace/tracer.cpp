@@ -86,7 +86,7 @@ SurfaceRecord Tracer::surface_of(const CameraRay& ray, const FirstHit& hit, Scra
   }
   const SeenPoint point = seen_point(hub_, scratch.rays, hit);
   record.object_id = object_of(*scene_, hit).id;
-  record.distance = double(hit.lambda);
+  record.distance = double(hit.lambda) * in_medium(ray).index;
   record.doppler = scratch.rays.in(hit.frame).doppler(ray.light_delay).value * point.doppler;
   record.emission_time = scratch.rays.event(0, hit.lambda).t / scene_->c;
   record.proper_time = point.proper_time / scene_->c;

@@ -143,6 +143,132 @@ TEST(Glass, TakesItsTintByTheLengthOfTheWay) {
   }
 }
 
+struct Place {
+  double t;
+  Vec3 x;
+};
+
+// From the frame of this velocity to the world; origins meet.
+Place in_world(const Place& p, const Vec3& v) {
+  const double speed = glm::length(v);
+  if (speed == 0.0) return p;
+  const double gamma = 1 / std::sqrt(1 - speed * speed), along = glm::dot(v, p.x);
+  return {gamma * (p.t + along), p.x + ((gamma - 1) * along / (speed * speed) + gamma * p.t) * v};
+}
+
+// Snell, by the components along and across the normal; zero where all is reflected.
+Vec3 bent(const Vec3& way, const Vec3& outward, double n) {
+  const Vec3 across = n * (way - glm::dot(way, outward) * outward);
+  const double sine = glm::length(across);
+  return sine < 1 ? across + std::sqrt(1 - sine * sine) * outward : Vec3{0.0};
+}
+
+// Snell's window: under water all of the sky is within asin(1/n) of the zenith, and around it is the floor.
+TEST(Glass, ShowsACameraUnderWaterTheSkyInSnellsWindow) {
+  const double n = 1.33;
+  for (const Vec3 v : {Vec3{0.0}, Vec3{0.4, 0.3, -0.6}, Vec3{0, 0.95, 0}}) {
+    const Rendering picture = render_text(
+        film_through_glass(80, 80) + "[effects]\ndoppler = false\nsearchlight = \"off\"\n" +
+        "[frame.sea]\nvelocity = " + list(v) +
+        "\n[camera]\nframe = \"sea\"\nposition = [0, -1, 0]\ndirection = [0, 1, 0]\nup = [0, 0, 1]\nfov = "
+        "120\n"
+        "[background]\ncolor = [1, 1, 1]\n"
+        "[[object]]\nshape = \"plane\"\nframe = \"sea\"\nmaterial = { glass = { index = 1.33 } }\n"
+        "[[object]]\nshape = \"plane\"\nframe = \"sea\"\nposition = [0, -3, 0]\nmaterial = { color = [0, 0, "
+        "0], "
+        "emission = 0.125 }\n");
+    Worst window, around, way, shift;
+    for (int y = 0; y < 80; ++y) {
+      for (int x = 0; x < 80; ++x) {
+        const Vec3 looking = picture.direction(x, y), beyond = bent(looking, {0, 1, 0}, n);
+        ASSERT_EQ(picture.id(x, y), 1);
+        way.take(relative(picture.at("Z", x, y), n / looking.y));
+        const double light = picture.at("R", x, y), end = picture.at("mirror.Z", x, y);
+        if (beyond == Vec3{0.0}) {
+          around.take(std::abs(light - 0.125));
+          around.take(relative(end, n * 4 / looking.y));
+          shift.take(std::abs(picture.at("mirror.D", x, y) - 1));
+        } else {
+          const double r = reflected_share(beyond.y, n);
+          window.take(std::isinf(end) ? std::abs(light - (1 - r + 0.125 * r)) : 1.0);
+          shift.take(relative(picture.at("mirror.D", x, y),
+                              std::sqrt(1 - glm::dot(v, v)) / (1 - glm::dot(v, beyond))));
+        }
+      }
+    }
+    EXPECT_GT(window.compared, 1000);
+    EXPECT_GT(around.compared, 1000);
+    EXPECT_LT(window.error, 1e-3);
+    EXPECT_LT(around.error, 1e-3);
+    EXPECT_LT(way.error, 1e-6);
+    EXPECT_LT(shift.error, 1e-6);
+  }
+}
+
+// A camera off the middle of a ball that flies by a wall at rest: when the light left the wall, by Snell in
+// the ball's frame and the line of events from there on.
+TEST(Glass, LetsACameraInABallSeeTheWorldPass) {
+  const double n = 1.5, wall = 4.0;
+  for (const Vec3 v : {Vec3{0.0}, Vec3{0.5, -0.3, 0.6}, Vec3{0.9, 0, 0.1}}) {
+    const Rendering picture = render_text(
+        film_through_glass(60, 60) + "[frame.ball]\nvelocity = " + list(v) +
+        "\n[camera]\nframe = \"ball\"\nposition = [0.3, 0.2, -0.75]\nfov = 130\n"
+        "[[object]]\nshape = \"sphere\"\nradius = 1\nframe = \"ball\"\nmaterial = { glass = { index = 1.5 } "
+        "}\n"
+        "[[object]]\nshape = \"plane\"\nrotate = [-90, 0, 0]\nposition = [0, 0, 4]\nmaterial = { color = "
+        "[0, 0, 0], emission = 0.5 }\n");
+    const Vec3 camera{0.3, 0.2, -0.75};
+    Worst time;
+    int kept = 0;
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 0; x < 60; ++x) {
+        const Vec3 looking = picture.direction(x, y);
+        const double half = glm::dot(camera, looking);
+        const double length = -half + std::sqrt(half * half + 1 - glm::dot(camera, camera));
+        const Vec3 out = camera + length * looking, beyond = bent(looking, out, n);
+        if (beyond == Vec3{0.0}) {
+          kept += picture.at("mirror.V", x, y) == 1 ? 1 : 0;
+          continue;
+        }
+        // The world's z along the line of events is linear.
+        const Place start = in_world({-n * length, out}, v);
+        const Place next = in_world({-n * length - 1, out + beyond}, v);
+        const double more = (wall - start.x.z) / (next.x.z - start.x.z);
+        if (!(more > 0) || picture.at("mirror.V", x, y) != 2) continue;
+        const double then = start.t + more * (next.t - start.t);
+        time.take(std::abs(picture.at("mirror.T", x, y) - then) / (1 + std::abs(then)));
+      }
+    }
+    EXPECT_GT(kept, 100);
+    EXPECT_GT(time.compared, 500);
+    EXPECT_LT(time.error, 1e-6);
+  }
+}
+
+// A lamp in the water, and the camera too: the tint of both ways.
+TEST(Glass, TakesItsTintOfALampWithinItToo) {
+  const auto picture = [](const std::string& tint) {
+    return render_text(film_through_glass(24, 24) +
+                       "[camera]\nposition = [0, -1, 0]\ndirection = [0, -1, 1.2]\n" +
+                       "[[light]]\nposition = [1, -2, 2]\nintensity = 20\n"
+                       "[[object]]\nshape = \"plane\"\nmaterial = { glass = { index = 1.33, tint = " +
+                       tint + " } }\n[[object]]\nshape = \"plane\"\nposition = [0, -3, 0]\n");
+  };
+  const Rendering clear = picture("1"), tinted = picture("[0.7, 0.9, 1]");
+  Worst share;
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 24; ++x) {
+      if (clear.id(x, y) != 2) continue;
+      const Vec3 looking = clear.direction(x, y), floor = Vec3{0, -1, 0} - 2 / looking.y * looking;
+      const double length = glm::length(Vec3{1, -2, 2} - floor) - 2 / looking.y;
+      share.take(relative(tinted.at("R", x, y) / clear.at("R", x, y), std::pow(0.7, length)));
+      share.take(relative(tinted.at("G", x, y) / clear.at("G", x, y), std::pow(0.9, length)));
+    }
+  }
+  EXPECT_GT(share.compared, 600);
+  EXPECT_LT(share.error, 2e-3);  // half floats
+}
+
 std::string over_floor(const std::string& things) {
   return "c = 1\n" + film(60, 40) +
          "[camera]\nposition = [0, 1, -6]\ndirection = [0, -0.1, 1]\nbeta = [0.1, 0, 0.2]\n"

@@ -119,7 +119,6 @@ class Tracer {
   [[nodiscard]] const Material& material_at(const SeenPoint& point) const;
   [[nodiscard]] const Hub& hub_of(const Leg& leg) const;
   void find_glass();
-  void find_camera_media();
 
   const Scene* scene_;
   Hub hub_;
