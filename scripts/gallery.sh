@@ -129,6 +129,11 @@ figure mirror-hall mirror-hall
 figure einstein-mirror einstein-mirror
 figure mirror-ball-street mirror-ball-street
 figure glass-ball-and-slab glass-ball-and-slab
+figure michelson michelson
+sheet mirror-clock mirror-clock 1,4,10,18 4 -r 240x360
+sheet mirror-clock-aboard mirror-clock 1,4,10,18 4 -r 240x360 --camera aboard
+figure fizeau-along fizeau -D params.v=-0.5
+figure fizeau-against fizeau
 sheet circling-lamp circling-lamp 1-131x26 3 -r 240x175
 sheet bell-rockets bell-rockets 1-37x12 2 -r 360x131 -s 4
 figure rindler-bow rindler-rocket -r 360x263 --camera bow

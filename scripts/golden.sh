@@ -45,6 +45,7 @@ for scene in scenes/*.toml tests/golden/scenes/*.toml; do
     bell-rockets) render "$scene" "$name.####.exr" 64x36 -f 1,25 ;;  # with the string, and without
     clock-dice | light-clock | rolling-wheels) render "$scene" "$name.####.exr" 64x36 -f 13 ;;
     cubemap) render "$scene" "$name.exr" 60x40 ;;  # six faces
+    mirror-clock) render "$scene" "$name.####.exr" 64x36 -f 4 ;;  # the first reflections
     ladder-barn) render "$scene" "$name.####.exr" 64x36 -f 25 ;;  # both doors are shut
     *) render "$scene" "$name.exr" ;;
   esac
