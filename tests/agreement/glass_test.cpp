@@ -119,7 +119,7 @@ TEST(Glass, IsTheLawInSheetsForAnyThreadsAndCrop) {
 }
 
 TEST(Glass, IsTheLawWhereSamplesAreChosen) {
-  expect_the_law(scene(""), {"film.tolerance=0.05", "film.resolution=[36, 24]"});
+  expect_the_law(scene(""), {"film.tolerance=0.02"});
   expect_the_law(scene("beta = [0.2, 0.1, 0.4]"), {"film.tolerance=0.05", "film.resolution=[36, 24]"});
 }
 
