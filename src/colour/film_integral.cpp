@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "backlight/base/thread_memory.h"
 #include "rec709.h"
 
 namespace backlight {
@@ -87,7 +88,8 @@ void add_cell(std::size_t cell, double from, double to, int parts, Work& work) {
 }
 
 void add_points(const Product& p, double begin, double end, Work& work) {
-  static thread_local std::vector<Knots> knots;
+  static constinit thread_local ThreadMemory<std::vector<Knots>> memory;
+  std::vector<Knots>& knots = memory.get();
   knots.assign(1, Knots(p.light, p.shift));
   double greatest = p.shift;
   for (const Filter& filter : p.filters) {
@@ -110,7 +112,8 @@ void add_points(const Product& p, double begin, double end, Work& work) {
 // By how much the CIE's sum over 1 nm of a blackbody differs from its integral: by nothing that shows above
 // 400 K. Its colour is defined by the sum, with which a constant table is to agree.
 double sum_over_integral(const Product& p, const Work& work) {
-  static thread_local Work samples;
+  static constinit thread_local ThreadMemory<Work> memory;
+  Work& samples = memory.get();
   samples.clear();
   double sum = 0.0, integral = 0.0;
   for (std::size_t i = 0; i < cie::sample_count; ++i) {
@@ -164,7 +167,8 @@ LinearRgb integrate_film(const Spectrum& light, double shift, const Spectrum* re
 }
 
 LinearRgb integrate_film(const Spectrum& light, double shift, std::span<const Filter> filters) {
-  static thread_local Work work;
+  static constinit thread_local ThreadMemory<Work> memory;
+  Work& work = memory.get();
   collect({light, shift, filters}, work);
   for (const Filter& filter : filters) {
     work.evaluate(*filter.spectrum, filter.shift);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "backlight/base/lane_exponential.h"
+#include "backlight/base/thread_memory.h"
 #include "backlight/colour/spectrum.h"
 #include "light_kernels.h"
 #include "light_samples.h"
@@ -123,7 +124,8 @@ namespace {
 LightRows::Place place_of_body(double kelvin) {
   if (temperatures.has(kelvin))
     return place_in(temperatures, LightRows::Family::bodies, kelvin, body_row_table);
-  static thread_local LightRows::Row own;
+  static constinit thread_local ThreadMemory<LightRows::Row> memory;
+  LightRows::Row& own = memory.get();
   own = body_row(kelvin);
   return {LightRows::Family::alone, &own, &own, 0.0, 0.0, 1.0, kelvin};
 }
@@ -215,9 +217,12 @@ LightRows::Weights LightRows::of_white() const {
 
 // Good until the next are made in the same thread.
 LightRows::Weights LightRows::make_weights(const ObserverSamples& light) const {
-  static thread_local std::vector<double> weights;
-  static thread_local std::vector<float> floats(left_out_count);
-  static thread_local std::vector<std::uint16_t> left_out(left_out_count);
+  static constinit thread_local ThreadMemory<std::vector<double>> weights_memory;
+  static constinit thread_local ThreadMemory<std::vector<float>> floats_memory;
+  static constinit thread_local ThreadMemory<std::vector<std::uint16_t>> left_out_memory;
+  std::vector<double>& weights = weights_memory.get();
+  std::vector<float>& floats = floats_memory.get(left_out_count);
+  std::vector<std::uint16_t>& left_out = left_out_memory.get(left_out_count);
   const std::size_t n = nm_.size();
   if (weights.size() < 3 * n) weights.resize(3 * n);
   double* const of[3] = {weights.data(), weights.data() + n, weights.data() + 2 * n};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "backlight/base/thread_memory.h"
+
 namespace backlight {
 
 SplineWeights::SplineWeights(std::vector<double> nm) : nm_(std::move(nm)), nodes_(nm_.size()) {
@@ -37,7 +39,8 @@ SplineWeights::SplineWeights(std::vector<double> nm) : nm_(std::move(nm)), nodes
 
 void SplineWeights::fill(const ObserverSamples& light, double* const (&weights)[3], float* left_out) const {
   static const SpectralKernels& widest = spectral_kernels(InstructionSet::widest);
-  static thread_local std::vector<double> work;
+  static constinit thread_local ThreadMemory<std::vector<double>> memory;
+  std::vector<double>& work = memory.get();
   if (work.size() < 8 * nm_.size()) work.resize(8 * nm_.size());
   const SplineForm form{static_cast<int>(nm_.size()), nm_.data(), samples_.data(), nodes_.data(),
                         film_weight_lanes.of};

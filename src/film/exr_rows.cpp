@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "backlight/base/thread_memory.h"
 #include "exr_header.h"
 
 namespace backlight {
@@ -207,8 +208,10 @@ std::string head_of(const ImageLayout& layout, const ExrHeader& header) {
 
 std::string chunks_of_rows(const ImageLayout& rows, std::span<const std::span<const float>> planes) {
   // A thread makes many chunks, and fresh memory for each costs more than all else but zlib.
-  thread_local ChunkMaker maker(Imf::Header().zipCompressionLevel());
-  thread_local Words words;
+  static constinit thread_local ThreadMemory<ChunkMaker> maker_memory;
+  static constinit thread_local ThreadMemory<Words> words_memory;
+  ChunkMaker& maker = maker_memory.get(Imf::Header().zipCompressionLevel());
+  Words& words = words_memory.get();
   std::vector<std::uint8_t> all_in_range;
   for (std::size_t channel = 0; channel < planes.size(); ++channel)
     all_in_range.push_back(require_half(planes[channel], rows.channels[channel]) ? 1 : 0);

@@ -211,9 +211,11 @@ KeyTable screen() {
           "read in the camera's frame, as `look_at` is. An eye before each wall of a room makes one picture "
           "of the "
           "walls, with no seam between them.",
-          {numbers("lower_left", 3, Required{}, "length", ""),
-           numbers("lower_right", 3, Required{}, "length", ""),
-           numbers("upper_left", 3, Required{}, "length", "")},
+          {numbers("lower_left", 3, Required{}, "length",
+                   "The corner of the screen that is at the lower left of the picture."),
+           numbers("lower_right", 3, Required{}, "length", "That at the lower right."),
+           numbers("upper_left", 3, Required{}, "length",
+                   "That at the upper left; the fourth is where it completes the rectangle.")},
           ""};
 }
 

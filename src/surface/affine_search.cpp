@@ -11,6 +11,8 @@
 
 #include "root_searches.h"
 
+#include "backlight/base/thread_memory.h"
+
 namespace backlight {
 namespace {
 
@@ -61,8 +63,8 @@ struct Memory {
 };
 
 Memory& memory_of_thread() {
-  thread_local Memory memory;
-  return memory;
+  static constinit thread_local ThreadMemory<Memory> memory;
+  return memory.get();
 }
 
 class FormSearch {

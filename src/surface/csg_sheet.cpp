@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "backlight/base/thread_memory.h"
 #include "root_searches.h"
 
 namespace backlight {
@@ -19,8 +20,8 @@ struct Memory {
 };
 
 Memory& memory_of_thread() {
-  thread_local Memory memory;
-  return memory;
+  static constinit thread_local ThreadMemory<Memory> memory;
+  return memory.get();
 }
 
 auto question_of(Sweep* sweep) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "backlight/base/thread_memory.h"
 #include "line_search.h"
 #include "newton_bracket.h"
 #include "root_searches.h"
@@ -28,8 +29,8 @@ struct Memory {
 };
 
 Memory& memory_of_thread() {
-  thread_local Memory memory;
-  return memory;
+  static constinit thread_local ThreadMemory<Memory> memory;
+  return memory.get();
 }
 
 class SideBySide {

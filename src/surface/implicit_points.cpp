@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "backlight/base/thread_memory.h"
 #include "backlight/surface/implicit_surface.h"
 #include "backlight/surface/matter_motion.h"
 
@@ -100,12 +101,12 @@ class Batch {
 
  private:
   static LineBatch& lines() {
-    thread_local LineBatch batch(window);
-    return batch;
+    static constinit thread_local ThreadMemory<LineBatch> batch;
+    return batch.get(window);
   }
   static std::vector<double>& workspace() {
-    thread_local std::vector<double> memory;
-    return memory;
+    static constinit thread_local ThreadMemory<std::vector<double>> memory;
+    return memory.get();
   }
 
   /// A line through each point, without a direction as yet.

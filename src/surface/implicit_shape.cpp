@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "backlight/base/thread_memory.h"
 #include "backlight/surface/implicit_surface.h"
 #include "convex.h"
 #include "implicit_points.h"
@@ -102,7 +103,8 @@ struct Questions {
 };
 
 Questions& questions_of_thread() {
-  thread_local Questions questions;
+  static constinit thread_local ThreadMemory<Questions> memory;
+  Questions& questions = memory.get();
   questions.pieces.clear();
   questions.line_of.clear();
   return questions;

@@ -321,7 +321,7 @@ class MeshWalk : TreeWalk<N> {
   }
 
   /// Which lanes of the register cross the triangle, and where.
-  BACKLIGHT_LANES Mask crossing(const Corners& corners, std::size_t i, V& t) const {
+  BACKLIGHT_LANES Mask crossing(const Corners& corners, int i, V& t) const {
     const Edges e = edges(corners, a_, b_, c_, V::load(lines_.point[a_] + i), V::load(lines_.point[b_] + i),
                           V::load(lines_.point[c_] + i), V::load(shear_b_ + i), V::load(shear_c_ + i));
     const V zero(0.0);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "backlight/base/thread_memory.h"
 #include "root_searches.h"
 #include "surface_kernels.h"
 
@@ -32,8 +33,8 @@ struct Memory {
 };
 
 Memory& memory_of_thread() {
-  thread_local Memory memory;
-  return memory;
+  static constinit thread_local ThreadMemory<Memory> memory;
+  return memory.get();
 }
 
 class PolynomialSearch {

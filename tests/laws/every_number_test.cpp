@@ -96,6 +96,11 @@ void add_motion(std::vector<Case>& cases, const std::string& table, const std::s
 void add_picture(std::vector<Case>& all) {
   all.push_back({".c", plain_red, {"c=@", "camera.velocity=[0.125, 0, 0]"}, "1", "2"});
   all.push_back({"film.resolution", plain_red, {"film.resolution=@"}, "[20, 14]", "[24, 12]"});
+  all.push_back({"film.bounces",
+                 "[material.red]\nglass = { index = 1.5 }\n",
+                 {"film.bounces=@", "object.ball.beta=[0, 0, 0]"},
+                 "1",
+                 "4"});
   all.push_back({"film.samples", plain_red, {"film.samples=@"}, "2", "3"});
   all.push_back({"film.tolerance", plain_red, {"film.tolerance=@"}, "0.5", "0.03125"});
   all.push_back({"film.wavelengths", plain_red, {"film.wavelengths=@"}, "8", "16"});
@@ -187,6 +192,17 @@ void add_materials(std::vector<Case>& all) {
                  "0",
                  "1"});
   all.push_back({"material.specular", material("specular = @"), {}, "0", "0.5"});
+  all.push_back({"material.mirror", material("mirror = @"), {}, "0.25", "0.75"});
+  all.push_back({"material.glass.index",
+                 material("glass = { index = @ }"),
+                 {"object.ball.beta=[0, 0, 0]"},
+                 "1.25",
+                 "1.5"});
+  all.push_back({"material.glass.tint",
+                 material("glass = { index = 1.5, tint = @ }"),
+                 {"object.ball.beta=[0, 0, 0]"},
+                 "0.25",
+                 "0.75"});
   all.push_back({"material.shininess", material("specular = 0.5\nshininess = @"), {}, "4", "16"});
   all.push_back({"material.emission", material("emission = @"), {}, "0.5", "0.75"});
   all.push_back({"material.temperature", material("emission = 1\ntemperature = @"), {}, "3000", "6000"});

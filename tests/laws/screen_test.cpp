@@ -61,7 +61,8 @@ TEST(Screen, SixWallsHaveNoSeam) {
 TEST(Cubemap, FacesAreTheImagesOfSixCameras) {
   const std::string things =
       "velocity = [0.3, -0.1, 0.4]\n[background]\ncolor = [0.1, 0.2, 0.3]\n[[light]]\nposition = [3, 5, -2]\n"
-      "intensity = 90\n[[object]]\nshape = \"sphere\"\nradius = 1\nposition = [3, 0, 1]\nbeta = [0.2, 0.5, 0]\n"
+      "intensity = 90\n[[object]]\nshape = \"sphere\"\nradius = 1\nposition = [3, 0, 1]\nbeta = [0.2, 0.5, "
+      "0]\n"
       "[[object]]\nshape = \"box\"\nposition = [-2, 1, 4]\nsize = [1, 2, 1]\n"
       "[[object]]\nshape = \"plane\"\nposition = [0, -1, 0]\n";
   const Rendering cube = render_text(film(72, 48) + "[camera]\nprojection = \"cubemap\"\n" + things);
