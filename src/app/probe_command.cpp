@@ -30,7 +30,8 @@ std::string rounded(double value, int digits) {
 }
 
 std::string vector_text(const Vec3& v) {
-  return shortest(float(v.x)) + " " + shortest(float(v.y)) + " " + shortest(float(v.z));
+  const Vec3 shown = v + 0.0;  // of zeros the positive one
+  return shortest(float(shown.x)) + " " + shortest(float(shown.y)) + " " + shortest(float(shown.z));
 }
 
 void print_row(const char* name, const std::string& value) {
@@ -90,8 +91,9 @@ void print_text(const std::string& file, const PixelPlace& place, const PixelFac
   number("emission time", facts.emission_time, " s of the world");
   number("own time", facts.proper_time, " s of the matter, when the light left it");
   number("distance", facts.distance, " that the light travelled, as the camera measures it");
-  if (facts.position) print_row("P", vector_text(*facts.position) + "  in the object's rest frame");
-  if (facts.normal) print_row("N", vector_text(*facts.normal) + "  in the object's rest frame");
+  if (facts.position)
+    print_row("P", vector_text(*facts.position) + "  in the coordinates of the object's frame");
+  if (facts.normal) print_row("N", vector_text(*facts.normal) + "  in the axes of the object's frame");
   for (const auto& [name, value] : facts.channels) {
     if (!is_told_in_words(name)) print_row(name.c_str(), shortest(value));
   }
