@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 
 #include "rendering.h"
+#include "same_bits.h"
 
 namespace backlight::test {
 namespace {
@@ -103,22 +103,6 @@ matter_velocity = ["0.2*x", "0.2*y", "0.2*z"]
 )toml";
 }
 
-void expect_same_bits(const Rendering& a, const Rendering& b, const PixelBox& where) {
-  const auto& channels = a.image.layout().channels;
-  int off = 0;
-  for (std::size_t channel = 0; channel < channels.size(); ++channel) {
-    for (int y = where.y0; y < where.y1; ++y) {
-      for (int x = where.x0; x < where.x1; ++x) {
-        const float one = a.image.at(channel, x, y), other = b.image.at(channel, x, y);
-        if (std::bit_cast<std::uint32_t>(one) == std::bit_cast<std::uint32_t>(other)) continue;
-        if (++off < 4)
-          ADD_FAILURE() << channels[channel].name << ' ' << x << ' ' << y << ": " << one << ", " << other;
-      }
-    }
-  }
-  EXPECT_EQ(off, 0);
-}
-
 // Many on circles, in two frames, and some that go away: more than lamps look at one by one.
 std::string a_crowd_on_circles(const std::string& camera) {
   std::string scene = std::string("[film]\nresolution = [46, 34]\n") + aovs +
@@ -162,15 +146,14 @@ void expect_the_law(const std::string& scene, const std::vector<std::string>& ov
   choices.overrides = overrides;
   const Rendering sheets = render_text(scene, choices);
   choices.path = RayPath::one_by_one;
-  const PixelBox all = sheets.image.layout().data;
-  expect_same_bits(sheets, render_text(scene, choices), all);
+  expect_same_bits(sheets.image, render_text(scene, choices).image);
   choices.path = RayPath::sheets;
   choices.threads = 1;
   choices.instructions = InstructionSet::baseline;
-  expect_same_bits(sheets, render_text(scene, choices), all);
+  expect_same_bits(sheets.image, render_text(scene, choices).image);
   choices.threads = 5;
   choices.crop = PixelBox{7, 11, 32, 26};
-  expect_same_bits(sheets, render_text(scene, choices), *choices.crop);
+  expect_same_bits(sheets.image, render_text(scene, choices).image);
 }
 
 TEST_P(MovingMatterInSheets, IsTheLaw) {

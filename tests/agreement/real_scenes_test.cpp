@@ -1,9 +1,8 @@
 // The scenes that people render, by sheets and by the law that asks every surface: the same bits.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "rendering.h"
+#include "same_bits.h"
 
 namespace backlight::test {
 namespace {
@@ -16,12 +15,7 @@ TEST_P(RealScenes, AreTheLaw) {
   const Rendering sheets = render_file(path, choices);
   choices.path = RayPath::one_by_one;
   const Rendering law = render_file(path, choices);
-  ASSERT_EQ(sheets.image.channel_count(), law.image.channel_count());
-  for (std::size_t channel = 0; channel < law.image.channel_count(); ++channel) {
-    const auto a = sheets.image.plane(channel), b = law.image.plane(channel);
-    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]), 0)
-        << law.image.layout().channels[channel].name;
-  }
+  expect_same_bits(sheets.image, law.image);
   EXPECT_EQ(sheets.statistics.rays.shadow, law.statistics.rays.shadow);
 }
 

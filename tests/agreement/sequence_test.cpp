@@ -1,9 +1,8 @@
 // An image has the same bits whether it is rendered by itself or after others, which leave it what they can.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "rendering.h"
+#include "same_bits.h"
 
 namespace backlight::test {
 namespace {
@@ -84,14 +83,6 @@ std::vector<Case> cases() {
                "material = { color = [0.1, 0.9, 0.2] }\n",
        2, 3},
   };
-}
-
-void expect_same_bits(const Image& a, const Image& b) {
-  ASSERT_EQ(a.channel_count(), b.channel_count());
-  for (std::size_t channel = 0; channel < a.channel_count(); ++channel) {
-    EXPECT_EQ(std::memcmp(a.plane(channel).data(), b.plane(channel).data(), a.plane(channel).size_bytes()), 0)
-        << a.layout().channels[channel].name;
-  }
 }
 
 TEST(Sequence, HasTheBitsOfItsImagesAlone) {

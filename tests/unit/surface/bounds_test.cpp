@@ -1,6 +1,7 @@
 // Bounds proved of formulas: they hold, they are not much too large, and nothing is claimed of what goes on
 // forever.
 #include "backlight/surface/implicit_surface.h"
+#include "formula_text.h"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +11,7 @@ namespace backlight {
 namespace {
 
 ImplicitFormula formula(const std::string& text) {
-  auto parsed = Expression::parse(text, {"x", "y", "z", "t"});
-  if (const auto* wrong = std::get_if<ExpressionError>(&parsed)) {
-    ADD_FAILURE() << wrong->message;
-    return ImplicitFormula(Expression{});
-  }
-  return ImplicitFormula(std::get<Expression>(std::move(parsed)));
+  return ImplicitFormula(test::formula(text));
 }
 
 struct Bounded {

@@ -4,18 +4,12 @@
 #include <cmath>
 
 #include "backlight/surface/matter_motion.h"
+#include "formula_text.h"
 
 namespace backlight {
 namespace {
 
-Expression formula(const std::string& text) {
-  auto parsed = Expression::parse(text, {"x", "y", "z", "t"});
-  if (const auto* wrong = std::get_if<ExpressionError>(&parsed)) {
-    ADD_FAILURE() << wrong->message;
-    return {};
-  }
-  return std::get<Expression>(std::move(parsed));
-}
+using test::formula;
 
 /// A wheel that turns at 0.9 and rolls along at `way`, in lengths of 2 for a second.
 MatterMotion wheel(const std::string& way, std::optional<double> period) {

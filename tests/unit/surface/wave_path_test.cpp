@@ -11,18 +11,12 @@
 #include "backlight/surface/implicit_surface.h"
 #include "backlight/surface/matter_motion.h"
 #include "backlight/surface/surface_set.h"
+#include "formula_text.h"
 
 namespace backlight {
 namespace {
 
-Expression formula(const std::string& text) {
-  auto parsed = Expression::parse(text, {"x", "y", "z", "t"});
-  if (const auto* wrong = std::get_if<ExpressionError>(&parsed)) {
-    ADD_FAILURE() << wrong->message;
-    return {};
-  }
-  return std::get<Expression>(std::move(parsed));
-}
+using test::formula;
 
 std::array<Expression, 3> three(const std::string& x, const std::string& y, const std::string& z) {
   return {formula(x), formula(y), formula(z)};
