@@ -28,7 +28,7 @@
 # The kernels by themselves: build/bench/bench/kernels and build/bench/bench/implicit.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-for argument in "$@"; do [[ $argument == -h || $argument == --help ]] && sed -n '2,28s/^# \{0,1\}//p' "$0" && exit 0; done
+for argument in "$@"; do [[ $argument == -h || $argument == --help ]] && sed -n '2,28s/^# \{0,1\}//p' scripts/bench.sh && exit 0; done
 
 scripts/install.sh build bench
 cmake --preset bench >/dev/null

@@ -38,8 +38,8 @@ while (($#)); do
       ;;
     --draw) draw_only=yes ;;
     [a-h]) charts+=("$argument") ;;
-    -h | --help) sed -n '2,21s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    *) sed -n '2,21s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    -h | --help) sed -n '2,21s/^# \{0,1\}//p' scripts/charts.sh; exit 0 ;;
+    *) sed -n '2,21s/^# \{0,1\}//p' scripts/charts.sh >&2; exit 2 ;;
   esac
 done
 ((${#charts[@]})) || charts=(a b c d e f g h)

@@ -18,7 +18,7 @@ wanted=()
 for argument in "$@"; do
   case $argument in
     --refresh-docs) refresh=yes ;;
-    -*) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    -*) sed -n '2,9s/^# \{0,1\}//p' scripts/gallery.sh >&2; exit 2 ;;
     *) wanted+=("$argument") ;;
   esac
 done
