@@ -153,7 +153,7 @@ def _run(arguments, stdin="", folder=None):
         return out
     if process.returncode == 3 and errors:
         raise SceneError(errors)
-    raise BacklightError(told.strip().removeprefix("backlight: error: "), process.returncode)
+    raise BacklightError(told.strip().removeprefix("backlight: ").removeprefix("error: "), process.returncode)
 
 
 _PLACE = re.compile(r"(?P<file>.*?):(?P<line>\d+):(?P<column>\d+): (?P<kind>error|warning): (?P<message>.*)\Z")

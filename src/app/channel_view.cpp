@@ -15,7 +15,13 @@ constexpr std::array<std::uint8_t, 3> nothing_there{70, 70, 70};
 constexpr int least_width = 320;  // that a scale needs to be read
 
 bool is_doppler(const std::string& channel) {
-  return channel == "doppler.D";
+  return channel == "doppler.D" || channel == "mirror.D";
+}
+
+// Numbers of things, without any between two of them.
+bool is_whole(const std::string& channel) {
+  constexpr std::array whole{"objectId.V", "mirror.V", "light.N", "samples.N", "unresolved.V"};
+  return std::ranges::find(whole, channel) != whole.end();
 }
 
 // What the numbers of a channel are.
@@ -33,6 +39,11 @@ std::string meaning_of(const std::string& channel) {
       Meaning{"light.Y", "luminance without any shift"},
       Meaning{"samples.N", "samples of the pixel"},
       Meaning{"objectId.V", "number of the object in the scene"},
+      Meaning{"unresolved.V", "1: a root was not isolated"},
+      Meaning{"mirror.Z", "distance travelled from what mirrors show (scene units)"},
+      Meaning{"mirror.D", "in mirrors, D: received frequency / sent frequency"},
+      Meaning{"mirror.T", "emission time in the world of what mirrors show (s)"},
+      Meaning{"mirror.V", "number of the object that mirrors show"},
   };
   const auto found = std::ranges::find_if(meanings, [&](const Meaning& m) { return m.channel == channel; });
   if (found != meanings.end()) return found->words;
@@ -54,6 +65,11 @@ class Presence {
     };
     rendered_ = find("rendered.V");
     if (name == "R" || name == "G" || name == "B" || name == "A" || name == "samples.N") return;
+    if (name.starts_with("mirror.")) {
+      object_ = find("mirror.V");
+      distance_ = find("mirror.Z");
+      return;
+    }
     alpha_ = find("A");
     if (is_doppler(name)) return;  // the sky has one
     object_ = find("objectId.V");
@@ -72,6 +88,11 @@ class Presence {
   const Image* image_;
   int rendered_ = -1, alpha_ = -1, object_ = -1, distance_ = -1;
 };
+
+// Of a scale of one value.
+double least_span(double value) {
+  return std::max(1e-6 * std::abs(value), 1e-6);
+}
 
 std::string short_number(double value) {
   std::array<char, 32> digits{};
@@ -136,6 +157,7 @@ double ColourScale::place_of(double value) const {
 
 std::vector<double> marks_of(const ColourScale& scale, int most) {
   // 1, 2, 5 times powers of ten; over many powers of ten, these alone, or every so many of them.
+  if (scale.greatest - scale.least <= least_span(scale.least)) return {scale.least};
   const double ratio = scale.greatest / scale.least;
   std::vector<double> marks;
   if (scale.logarithmic && ratio > 4.0) {
@@ -150,7 +172,7 @@ std::vector<double> marks_of(const ColourScale& scale, int most) {
       }
     }
   } else {
-    const double rough = (scale.greatest - scale.least) / most;
+    const double rough = std::max((scale.greatest - scale.least) / most, scale.whole ? 1.0 : 0.0);
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
     const double step = rough <= power       ? power
                         : rough <= 2 * power ? 2 * power
@@ -196,12 +218,13 @@ ColourScale ChannelValues::scale_for(const std::string& channel) const {
     // As far towards the blue as towards the red, so that 1 is in the middle.
     const double farthest = empty() || !(least_ > 0.0) ? 1.0 : std::max(greatest_, 1.0 / least_);
     const double end = std::max(farthest, 1.01);
-    return {1.0 / end, end, true, ColourMap::shift};
+    return {1.0 / end, end, true, false, ColourMap::shift};
   }
   ColourScale scale{empty() ? 0.0 : least_, empty() ? 1.0 : greatest_};
   scale.logarithmic = channel == "Z" && scale.least > 0.0 && scale.greatest > 30.0 * scale.least;
+  scale.whole = is_whole(channel);
   if (!(scale.greatest > scale.least))
-    scale.greatest = scale.least + std::max(1e-6 * std::abs(scale.least), 1e-6);
+    scale.greatest = scale.least + (scale.whole ? 1.0 : least_span(scale.least));
   return scale;
 }
 

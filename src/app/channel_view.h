@@ -19,6 +19,7 @@ struct ColourScale {
   double least = 0.0;
   double greatest = 1.0;
   bool logarithmic = false;
+  bool whole = false;  ///< of whole numbers
   ColourMap map = ColourMap::viridis;
 
   /// 0..1 within the scale.

@@ -47,6 +47,9 @@ Exit status: )" +
          exit_status_text();
 }
 
+namespace {
+
+// An option with its meaning in a column beside it.
 std::string help_row(std::string option, const std::string& meaning) {
   constexpr std::size_t indent = 31;
   constexpr std::size_t width = 100;
@@ -63,6 +66,21 @@ std::string help_row(std::string option, const std::string& meaning) {
     line += (at_start ? "" : " ") + word;
   }
   return rows + line + "\n";
+}
+
+}  // namespace
+
+std::string help_of(const CommandManual& command) {
+  std::string text = command.meaning + "\n\nUsage: backlight " + command.usage + "\n";
+  std::string group;
+  for (const OptionManual& option : command.options) {
+    if (option.group != group) text += "\n" + option.group + ":\n";
+    group = option.group;
+    std::string names = option.names.front().starts_with("--") ? "    " : "";
+    for (const std::string& name : option.names) names += (&name == &option.names.front() ? "" : ", ") + name;
+    text += help_row("  " + names + (option.value.empty() ? "" : " " + option.value), option.meaning);
+  }
+  return text;
 }
 
 }  // namespace backlight

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "manual.h"
+
 namespace backlight {
 
 /// What 'backlight --help' prints.
@@ -16,7 +18,7 @@ std::string program_text();
 std::string exit_status_text();
 std::vector<std::pair<std::string, std::string>> environment_variables();
 
-/// An option with its meaning in a column beside it, wrapped at 100 characters, with a newline.
-std::string help_row(std::string option, const std::string& meaning);
+/// What 'backlight COMMAND --help' prints: names, values and meanings in columns, wrapped at 100 characters.
+std::string help_of(const CommandManual& command);
 
 }  // namespace backlight

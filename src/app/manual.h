@@ -17,12 +17,16 @@ struct OptionManual {
   std::string group;
 };
 
-/// A command as its --help shows it.
-struct CommandManual {
+/// What a command is.
+struct CommandWords {
   std::string name;
   std::string meaning;   ///< sentences
   std::string usage;     ///< after the program's name; a line each
   std::string operands;  ///< what stands without an option, as in "SCENE.toml"; empty: nothing does
+};
+
+/// A command as its --help shows it.
+struct CommandManual : CommandWords {
   std::vector<OptionManual> options;
 };
 

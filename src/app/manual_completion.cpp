@@ -25,11 +25,11 @@ std::string extension_of(const std::string& value) {
 }
 
 // What an option's value is.
-enum class Kind { nothing, word, file, folder, other };
+enum class Kind { nothing, word, list, file, folder, other };
 
 Kind kind_of(const OptionManual& option) {
   if (option.value.empty()) return Kind::nothing;
-  if (!option.words.empty()) return Kind::word;
+  if (!option.words.empty()) return option.value == "LIST" ? Kind::list : Kind::word;
   if (option.value == "FOLDER") return Kind::folder;
   const bool is_file =
       option.value.starts_with("FILE") || option.value == "PATTERN" || !extension_of(option.value).empty();
@@ -40,6 +40,8 @@ std::string bash_values(const OptionManual& option) {
   switch (kind_of(option)) {
     case Kind::word:
       return "_backlight_words \"" + joined(option.words, " ") + "\"";
+    case Kind::list:
+      return "_backlight_list \"" + joined(option.words, " ") + "\"";
     case Kind::file:
       return "_backlight_files '" + extension_of(option.value) + "'";
     case Kind::folder:
@@ -93,6 +95,9 @@ std::string zsh_option(const OptionManual& option) {
     case Kind::word:
       action = ":" + option.value + ":(" + joined(option.words, " ") + ")";
       break;
+    case Kind::list:
+      action = ":" + option.value + ":_values -s , " + option.value + " " + joined(option.words, " ");
+      break;
     case Kind::file:
       action = ":" + zsh_text(option.value) + ":" + zsh_files(extension_of(option.value));
       break;
@@ -119,6 +124,13 @@ std::string bash_completion(const std::vector<CommandManual>& commands) {
   return R"(# Completion of backlight for bash, made by 'backlight manual --bash'.
 
 _backlight_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur"); }
+
+# The same with commas between.
+_backlight_list() {
+  local before=''
+  [[ $cur == *,* ]] && before=${cur%,*},
+  mapfile -t COMPREPLY < <(compgen -P "$before" -W "$1" -- "${cur##*,}")
+}
 
 # Files whose names end in $1, and folders; only folders for /.
 _backlight_files() {

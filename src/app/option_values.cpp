@@ -126,17 +126,29 @@ Failure not_one_of(const std::vector<std::string>& names, std::string_view text)
   return {nearest.empty() ? message : message + "; did you mean " + quoted(nearest) + "?"};
 }
 
-Result<std::vector<std::string>> parse_aovs(std::string_view text) {
+namespace {
+
+std::vector<std::string> aov_names() {
   const std::vector<std::string_view>& known = find_key(*find_table("film"), "aovs")->choices;
-  std::vector<std::string> names(known.begin(), known.end());
+  return {known.begin(), known.end()};
+}
+
+}  // namespace
+
+std::vector<std::string> aov_words() {
+  std::vector<std::string> words = aov_names();
+  words.insert(words.end(), {"all", "none"});
+  return words;
+}
+
+Result<std::vector<std::string>> parse_aovs(std::string_view text) {
+  const std::vector<std::string> names = aov_names();
   if (text == "all") return names;
   if (text == "none") return std::vector<std::string>{};
   auto list = parse_list(text);
   if (!list.ok()) return list;
   for (const std::string& name : list.value()) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    names.insert(names.end(), {"all", "none"});
-    return not_one_of(names, name);
+    if (std::find(names.begin(), names.end(), name) == names.end()) return not_one_of(aov_words(), name);
   }
   return list;
 }

@@ -42,6 +42,9 @@ Result<std::string> parse_text(std::string_view text);
 /// "path=value", as it is.
 Result<std::string> parse_override(std::string_view text);
 
+/// The words of --aov: names of data channels, all and none.
+std::vector<std::string> aov_words();
+
 /// Names of data channels with commas between, all, or none.
 Result<std::vector<std::string>> parse_aovs(std::string_view text);
 

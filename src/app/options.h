@@ -44,6 +44,7 @@ struct RenderOptions {
   ColourStorage storage = ColourStorage::automatic;
   bool png = false;
   DisplayChoice display;  ///< of the PNGs
+  std::string label;      ///< words to put into each PNG (label_text.h)
   int threads = 0;        ///< 0: usable_threads()
   ProgressStyle progress = ProgressStyle::automatic;
   Verbosity verbosity = Verbosity::normal;
@@ -107,6 +108,7 @@ struct ProbeOptions {
 struct AssembleOptions {
   std::vector<std::filesystem::path> parts;
   std::filesystem::path output;
+  bool faces = false;   ///< cut into the six of a cubemap; then `output` is a folder, or empty
   bool narrow = false;  ///< colour of 32 bits becomes one of 16 bits where a whole render would have it so
 };
 

@@ -1,10 +1,8 @@
 #include "picture_layout.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "backlight/camera/projection.h"
 #include "backlight/film/lettering.h"
 
 namespace backlight {
@@ -44,25 +42,6 @@ Result<void> add_label(PixelBytes& pixels, int height, const std::string& text) 
   std::transform(begin, begin + strip * row, begin,
                  [](std::uint8_t sample) { return static_cast<std::uint8_t>(sample / 3); });
   return write_text(pixels, {text, size / 3 + 1, height - size / 2, TextSide::left, size});
-}
-
-Result<void> write_faces(const std::filesystem::path& png, const PixelBytes& cube) {
-  if (!fits_cubemap(cube.width, cube.height))
-    return Failure{png.string() + ": the picture is no cubemap of six faces, which is 3:2"};
-  constexpr std::array names{"right", "left", "up", "down", "front", "back"};
-  const int edge = cube.width / 3;
-  for (int face = 0; face < 6; ++face) {
-    PixelBytes picture{edge, edge, 3, {}};
-    for (int y = 0; y < edge; ++y) {
-      const auto row = cube.samples.begin() + std::ptrdiff_t{3} * (face / 3 * edge + y) * cube.width;
-      const auto from = row + std::ptrdiff_t{3} * (face % 3) * edge;
-      picture.samples.insert(picture.samples.end(), from, from + std::ptrdiff_t{3} * edge);
-    }
-    const std::string name = std::string(names[static_cast<std::size_t>(face)]) + ".png";
-    if (auto written = write_png(std::filesystem::path(png).replace_extension(name), picture); !written.ok())
-      return written;
-  }
-  return {};
 }
 
 }  // namespace backlight

@@ -1,7 +1,6 @@
-// Pictures put beside each other, cut into faces, and given words.
+// Pictures put beside each other and given words.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,9 +16,5 @@ PixelBytes contact_sheet(const std::vector<PixelBytes>& pictures, int columns);
 /// White words at the lower left of the first `height` rows, on a strip of the picture at a third of its
 /// brightness.
 Result<void> add_label(PixelBytes& pixels, int height, const std::string& text);
-
-/// The faces of a cubemap (camera/projection.h), NAME.right.png and so on for NAME.png. Fails if the picture
-/// is not 3:2.
-Result<void> write_faces(const std::filesystem::path& png, const PixelBytes& cube);
 
 }  // namespace backlight

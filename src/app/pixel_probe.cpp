@@ -107,6 +107,25 @@ void forget_surface(PixelFacts& facts) {
   facts.position = facts.normal = std::nullopt;
 }
 
+bool tells_of_no_delay(const std::string& effects) {
+  return effects.find("light_delay = false") != std::string::npos;
+}
+
+// In the camera's frame light has travelled for as long as its way is; without light delay all is seen as it
+// is there now. Where regions of the image have different delays it is not told.
+void add_camera_time(const ExrHeader& header, PixelFacts& facts) {
+  const auto* time = header.find<double>("backlight/cameraTime");
+  const auto* effects = header.find<std::string>("backlight/effects");
+  if (!facts.distance || time == nullptr || effects == nullptr) return;
+  const bool no_delay = tells_of_no_delay(*effects);
+  if (const auto* regions = header.find<std::vector<std::string>>("backlight/effectsRegions")) {
+    for (const std::string& region : *regions) {
+      if (tells_of_no_delay(region) != no_delay) return;
+    }
+  }
+  facts.camera_time = *time - (no_delay ? 0.0 : double(*facts.distance) / facts.c);
+}
+
 }  // namespace
 
 Result<PixelProbe> PixelProbe::open(const std::filesystem::path& file, std::size_t view) {
@@ -153,6 +172,7 @@ void PixelProbe::add_object(PixelFacts& facts) const {
   if (const auto* c = header.find<double>("backlight/c")) facts.c = *c;
   facts.is_sky = facts.object_id ? *facts.object_id == 0 : facts.distance && std::isinf(*facts.distance);
   if (facts.is_sky) return forget_surface(facts);
+  add_camera_time(header, facts);
   if (!facts.object_id || *facts.object_id < 1) return;
   const auto* names = header.find<std::vector<std::string>>("backlight/objects");
   const auto index = static_cast<std::size_t>(*facts.object_id - 1);

@@ -29,6 +29,7 @@ struct PixelFacts {
   std::optional<int> object_id;       ///< 0: none
   std::optional<std::string> object;  ///< its name; empty: it has none in the scene
   std::optional<float> distance, doppler, emission_time, proper_time;
+  std::optional<double> camera_time;  ///< when the light left, by clocks at rest to the camera: seconds
   std::optional<Vec3> position, normal;
 
   // In the camera's frame, degrees and scene units.

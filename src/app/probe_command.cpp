@@ -89,6 +89,8 @@ void print_text(const std::string& file, const PixelPlace& place, const PixelFac
     print_row("Doppler factor D", shortest(*facts.doppler) + "  " + shift_text(*facts.doppler));
   print_angles(facts);
   number("emission time", facts.emission_time, " s of the world");
+  if (facts.camera_time)
+    print_row("time in camera's frame", rounded(*facts.camera_time, 7) + " s by the camera's clock");
   number("own time", facts.proper_time, " s of the matter, when the light left it");
   number("distance", facts.distance, " that the light travelled, as the camera measures it");
   if (facts.position)
@@ -120,7 +122,7 @@ void print_json(const std::string& file, const PixelPlace& place, const PixelFac
   const auto channel = [&add](const char* name, const std::optional<float>& value) {
     add(name, value ? json_single(*value) : "null");
   };
-  const auto angle = [&add](const char* name, const std::optional<double>& value) {
+  const auto number = [&add](const char* name, const std::optional<double>& value) {
     add(name, value ? json_number(*value) : "null");
   };
   const auto vector = [&add](const char* name, const std::optional<Vec3>& value) {
@@ -131,11 +133,12 @@ void print_json(const std::string& file, const PixelPlace& place, const PixelFac
   vector("colour", facts.colour);
   channel("alpha", facts.alpha);
   channel("doppler", facts.doppler);
-  angle("angleFromViewAxis", facts.from_axis);
-  angle("angleFromCameraVelocity", facts.from_camera_motion);
-  angle("angleFromObjectVelocity", facts.from_object_motion);
+  number("angleFromViewAxis", facts.from_axis);
+  number("angleFromCameraVelocity", facts.from_camera_motion);
+  number("angleFromObjectVelocity", facts.from_object_motion);
   vector("objectVelocity", facts.object_velocity);
   channel("emissionTime", facts.emission_time);
+  number("timeInCameraFrame", facts.camera_time);
   channel("properTime", facts.proper_time);
   channel("Z", facts.distance);
   vector("P", facts.position);

@@ -8,6 +8,7 @@
 #include "backlight/render/partial_file.h"
 #include "commands.h"
 #include "exit_codes.h"
+#include "label_text.h"
 #include "messages.h"
 #include "render_run.h"
 
@@ -53,6 +54,15 @@ void print_files(const std::vector<PlannedImage>& images, const Scene& first, co
   }
 }
 
+// A name that the images will not tell is better told of before they are rendered.
+Result<void> try_label(const RenderOptions& options, const PlannedImage& image, const Scene& scene,
+                       const ImageRecogniser& recogniser) {
+  if (options.label.empty()) return {};
+  const ExrHeader header = image_header(scene, 0, recogniser.origin(image), std::nullopt);
+  const auto text = label_text(options.label, image.exr, header);
+  return text.ok() ? Result<void>() : Result<void>(Failure{"--label: " + text.error()});
+}
+
 int usage_trouble(const std::string& message) {
   print_error(message);
   return exit_usage;
@@ -86,6 +96,8 @@ int run(const RenderOptions& options) {
   }
   auto recogniser = ImageRecogniser::of(options, session);
   if (!recogniser.ok()) return file_trouble(recogniser.error());
+  if (const auto tried = try_label(options, images.value().front(), *first, recogniser.value()); !tried.ok())
+    return usage_trouble(tried.error());
   if (options.dry_run || options.list_frames) {
     print_files(images.value(), *first, options, recogniser.value());
     return exit_success;

@@ -9,6 +9,8 @@
 #include "backlight/render/image_identity.h"
 #include "backlight/render/partial_file.h"
 #include "display_words.h"
+#include "label_text.h"
+#include "picture_layout.h"
 #include "render_run.h"
 
 namespace backlight {
@@ -88,8 +90,15 @@ Result<std::vector<std::string>> RenderRun::complete_png(const PlannedImage& ima
     if (const auto added = counts.add(picture.value().image, 0); !added.ok()) return added.failure();
   }
   const DisplayTransform transform = options_.display.transform(counts);
-  const auto displayed = display_image(picture.value().image, transform);
+  auto displayed = display_image(picture.value().image, transform);
   if (!displayed.ok()) return displayed.failure();
+  if (!options_.label.empty()) {
+    const auto text = label_text(options_.label, image.exr, picture.value().header);
+    if (!text.ok()) return Failure{image.exr.string() + ": " + text.error()};
+    PixelBytes& pixels = displayed.value().pixels;
+    if (const auto added = add_label(pixels, pixels.height, text.value()); !added.ok())
+      return added.failure();
+  }
   if (const auto written = write_png(image.png, displayed.value().pixels); !written.ok())
     return written.failure();
   std::vector<std::string> lines;

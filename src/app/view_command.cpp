@@ -8,13 +8,13 @@
 #include <string>
 #include <tuple>
 
-#include "backlight/camera/projection.h"
 #include "backlight/film/display.h"
 #include "backlight/film/exposure.h"
 #include "backlight/film/exr.h"
 #include "backlight/film/why_black.h"
 #include "channel_view.h"
 #include "commands.h"
+#include "cube_faces.h"
 #include "display_words.h"
 #include "exit_codes.h"
 #include "label_text.h"
@@ -219,14 +219,12 @@ Result<PixelBytes> whole_picture(const ViewOptions& options, const Shower& show,
   return views.size() == 1 ? std::move(views.front()) : contact_sheet(views, 1);
 }
 
-// Fails if an image is of another projection.
+// Fails if an image has no six faces.
 Result<void> require_cubemaps(const ViewOptions& options) {
   for (const fs::path& file : options.files) {
     const auto info = read_exr_info(file);
     if (!info.ok()) return info.failure();
-    const auto* projection = info.value().header.find<std::string>("backlight/projection");
-    if (projection != nullptr && *projection != name_of(Projection::cubemap))
-      return Failure{file.string() + ": its projection is " + *projection + ", not cubemap: it has no faces"};
+    if (auto cube = require_cubemap(file, info.value()); !cube.ok()) return cube;
   }
   return {};
 }

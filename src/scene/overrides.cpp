@@ -115,7 +115,8 @@ class Override {
     const std::string_view value = text.substr(begin);
     const std::uint32_t column = characters(text.substr(0, begin)) + 1;
     if (value.empty()) {
-      error({source_, line_, column, 1}, "the value is missing");
+      error({source_, line_, column, 1}, "the value is missing",
+            "an override changes a key or adds one; none takes a key out of the file");
       return std::nullopt;
     }
     const std::string_view prefix = "v = ";

@@ -48,7 +48,27 @@ TEST_F(Probe, AngleAndVelocityGiveTheDopplerFactor) {
     EXPECT_NEAR(number_in(outcome.out, "Z"),
                 9.0 / std::cos(number_in(outcome.out, "angleFromViewAxis") * degree), 2e-6);
     EXPECT_NEAR(number_in(outcome.out, "emissionTime"), -number_in(outcome.out, "Z") / 5.0, 1e-6);
+    EXPECT_NEAR(number_in(outcome.out, "timeInCameraFrame"), number_in(outcome.out, "emissionTime"), 1e-6);
   }
+}
+
+// The world's time of what a moving camera sees, brought into the camera's frame by the Lorentz
+// transformation.
+TEST_F(Probe, TellsTheTimeInTheCamerasFrame) {
+  render_wall({"--aov", "all"}, "velocity = [0, 0, 3]\ntime = 0.25\n");
+  const Outcome outcome = run({"probe", "wall.exr", "33,4", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  // In the camera's frame the light has come from -Z n; the event's world time is γ (t' + v·x'/c²).
+  const double z = number_in(outcome.out, "Z"), time = number_in(outcome.out, "timeInCameraFrame");
+  EXPECT_NEAR(time, 0.25 - z / 5.0, 1e-6);
+  const double along = z * std::cos(number_in(outcome.out, "angleFromCameraVelocity") * degree);
+  EXPECT_NEAR(number_in(outcome.out, "emissionTime"), 1.25 * (time + 3.0 / 25.0 * along), 1e-5);
+  render_wall({"--aov", "all", "-D", "effects.light_delay=false"}, "velocity = [0, 0, 3]\ntime = 0.25\n");
+  EXPECT_EQ(number_in(run({"probe", "wall.exr", "33,4", "--json"}).out, "timeInCameraFrame"), 0.25);
+  EXPECT_NE(run({"probe", "wall.exr", "33,4"}).out.find("0.25 s by the camera's clock"), std::string::npos);
+  render_wall({"-q"});
+  EXPECT_NE(run({"probe", "wall.exr", "3,4", "--json"}).out.find("\"timeInCameraFrame\":null"),
+            std::string::npos);
 }
 
 TEST_F(Probe, AnglesAreThoseOfPixelCentres) {

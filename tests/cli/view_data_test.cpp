@@ -113,6 +113,39 @@ TEST_F(ViewData, WhatHasNoValueIsGrey) {
   EXPECT_EQ(at(shown("a.png"), 2, 3), grey);
 }
 
+// What a mirror does not show has no value, and its shifts have the scale of shifts.
+TEST_F(ViewData, WhatMirrorsShow) {
+  const float none = std::numeric_limits<float>::infinity();
+  picture("a.exr", {{"mirror.V", {2.0F, 0.0F, 4.0F}},
+                    {"mirror.D", {1.0F, 0.0F, 0.5F}},
+                    {"mirror.T", {-1.0F, 0.0F, -3.0F}},
+                    {"mirror.Z", {1.0F, none, 3.0F}}});
+  for (const char* channel : {"mirror.D", "mirror.T", "mirror.Z", "mirror.V"}) {
+    expect_success({"view", "a.exr", "--channel", channel});
+    EXPECT_EQ(at(shown("a.png"), 1, 3), (std::array{70, 70, 70})) << channel;
+    EXPECT_NE(at(shown("a.png"), 2, 3), (std::array{70, 70, 70})) << channel;
+  }
+  expect_success({"view", "a.exr", "--channel", "mirror.D"});
+  EXPECT_EQ(at(shown("a.png"), 0, 3), (std::array{247, 247, 247}));
+}
+
+// Between two objects is none, and one value has one mark: those of the scale are white, below it.
+TEST_F(ViewData, ScalesHaveNoMoreMarksThanValues) {
+  const auto marks = [&](const std::string& channel) {
+    expect_success({"view", "a.exr", "--channel", channel});
+    const PixelBytes a = shown("a.png");
+    int count = 0;
+    for (int x = 0; x < a.width; ++x) count += at(a, x, 40 + 3 * 12 + 1) == std::array{255, 255, 255} ? 1 : 0;
+    return count;
+  };
+  picture(
+      "a.exr",
+      {{"objectId.V", {1.0F, 2.0F, 3.0F}}, {"light.N", {1.0F, 1.0F, 1.0F}}, {"light.Y", {0.3F, 0.3F, 0.3F}}});
+  EXPECT_EQ(marks("objectId"), 3);
+  EXPECT_EQ(marks("light.N"), 2);
+  EXPECT_EQ(marks("light.Y"), 1);
+}
+
 TEST_F(ViewData, SaysWhichChannelsThereAre) {
   picture("a.exr", {{"P.X", {1.0F}}, {"P.Y", {1.0F}}});
   expect_error(4, {"view", "a.exr", "--channel", "P"},
@@ -159,6 +192,21 @@ TEST_F(ViewData, LabelsTellWhatTheImageTells) {
   expect_error(2, {"view", "a.exr", "--label", "{time:2}"}, "expected decimals such as {time:.2}");
 }
 
+// The words of --png are those that view writes.
+TEST_F(ViewData, LabelsOfPngsBesideImages) {
+  write_scene("scene.toml", "[params]\nv = 0.25\n");
+  const std::string label = "v = {params.v}, t = {time}, {file}";
+  expect_success({"scene.toml", "-q", "-r", "160x80", "-D", "params.v=0.5", "--png", "--label", label});
+  expect_success({"view", "scene.exr", "-q", "--label", label, "-o", "viewed.png"});
+  expect_success({"view", "scene.exr", "-q", "-o", "plain.png"});
+  EXPECT_EQ(read("scene.png"), read("viewed.png"));
+  EXPECT_NE(read("scene.png"), read("plain.png"));
+  expect_error(2, {"scene.toml", "-q", "-o", "no/x.exr", "--png", "--label", "{params.w}"},
+               "backlight: error: --label: the image does not tell {params.w}");
+  EXPECT_FALSE(exists("no"));
+  expect_error(2, {"scene.toml", "--label", "v"}, "--label requires --png");
+}
+
 TEST_F(ViewData, BothEyesAreOneAboveTheOther) {
   write("pair.toml",
         "[film]\nresolution = [24, 16]\naovs = [\"Z\"]\n[camera]\nposition = [0, 0, -3]\nstereo = { "
@@ -191,10 +239,57 @@ TEST_F(ViewData, FacesOfACubemapAreFiles) {
     EXPECT_EQ(pixels.height, 12);
     EXPECT_EQ(at(pixels, 6, 6)[0] > 120, std::string(face) == "front") << face;
   }
+  picture("square.exr", {{"Z", Values(40, 1.0F)}});
+  expect_error(4, {"view", "square.exr", "--faces"},
+               "square.exr: it is no cubemap of six faces, which is 3:2");
   write_scene();
   expect_success({"scene.toml", "-q"});
   expect_error(4, {"view", "scene.exr", "--faces"}, "scene.exr: its projection is perspective, not cubemap");
   expect_error(2, {"view", "cube.exr", "--faces", "-o", "one.png"}, "six files are written");
+}
+
+// Each face is what a perspective camera renders that looks there, its data and its header too.
+TEST_F(ViewData, FacesOfACubemapAreOpenExrFiles) {
+  const std::string scene =
+      "[[object]]\nname = \"box\"\nshape = \"box\"\nsize = [7, 5, 9]\nposition = [0.3, 0.2, -0.4]\nbeta = "
+      "[0.3, 0, 0]\nmaterial = { checker = { colors = [[0.9, 0.5, 0.1], [0.1, 0.2, 0.6]], size = 0.7 } }\n"
+      "[[light]]\nposition = [0.4, 1, 0.2]\nintensity = 20\n";
+  const std::string film = "[film]\nresolution = [36, 24]\naovs = [\"Z\", \"doppler\", \"objectId\"]\n";
+  const std::string place = "position = [0, 0.5, 0]\ntime = 0.5\n";
+  write("cube.toml", film + "[camera]\nprojection = \"cubemap\"\ndirection = [0, 0, 1]\n" + place + scene);
+  expect_success({"cube.toml", "-q", "-s", "1"});
+  expect_success({"assemble", "cube.exr", "--faces", "-o", "faces/"});
+  const std::array<std::array<std::string, 3>, 6> ways{{{"right", "[-1, 0, 0]", "[0, 1, 0]"},
+                                                        {"left", "[1, 0, 0]", "[0, 1, 0]"},
+                                                        {"up", "[0, 1, 0]", "[0, 0, -1]"},
+                                                        {"down", "[0, -1, 0]", "[0, 0, 1]"},
+                                                        {"front", "[0, 0, 1]", "[0, 1, 0]"},
+                                                        {"back", "[0, 0, -1]", "[0, 1, 0]"}}};
+  for (const auto& [face, direction, up] : ways) {
+    write(face + ".toml",
+          film + "[camera]\nfov = 90\ndirection = " + direction + "\nup = " + up + "\n" + place + scene);
+    expect_success({face + ".toml", "-q", "-s", "1", "-r", "12x12"});
+    const std::string file = "faces/cube." + face + ".exr";
+    expect_success({"compare", face + ".exr", file, "--fail", "1e-5", "--failrelative", "1e-3"});
+    const auto one = read_exr(folder / "work" / (face + ".exr"));
+    const auto other = read_exr(folder / "work" / file);
+    ASSERT_TRUE(one.ok() && other.ok());
+    for (std::size_t i = 0; i < 16; ++i) {
+      EXPECT_NEAR((*one.value().header.world_to_camera)[i], (*other.value().header.world_to_camera)[i], 1e-6)
+          << face << i;
+    }
+    EXPECT_EQ(*other.value().header.find<std::string>("backlight/face"), face);
+    EXPECT_EQ(other.value().header.find<std::string>("backlight/identity"), nullptr);
+    EXPECT_EQ(run({"probe", face + ".exr", "3,8"}).out.substr(face.size()),
+              run({"probe", file, "3,8"}).out.substr(file.size() - 4));
+  }
+  expect_success({"assemble", "cube.exr", "--faces"});
+  EXPECT_EQ(read("cube.down.exr"), read("faces/cube.down.exr"));
+  expect_error(1, {"assemble", "up.exr", "--faces"}, "up.exr: its projection is perspective, not cubemap");
+  expect_error(2, {"assemble", "cube.exr", "--faces", "-o", "six.exr"}, "six files are written");
+  expect_error(2, {"assemble", "cube.exr", "up.exr", "--faces"}, "one cubemap at a time");
+  expect_success({"cube.toml", "-q", "--crop", "0,0,12,12", "-o", "crop.exr"});
+  expect_error(1, {"assemble", "crop.exr", "--faces"}, "crop.exr: it is a crop, not a whole cubemap");
 }
 
 }  // namespace

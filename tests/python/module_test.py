@@ -183,6 +183,7 @@ class Errors(unittest.TestCase):
         with self.assertRaises(backlight.BacklightError) as caught:
             backlight.render("no/such/scene.toml")
         self.assertEqual(caught.exception.status, 4)
+        self.assertTrue(str(caught.exception).startswith("cannot read "), caught.exception)
         self.assertIn("no/such/scene.toml", str(caught.exception))
         with self.assertRaises(backlight.BacklightError) as caught:
             backlight.render(SCENE, arguments=["--no-such-option"])
