@@ -24,8 +24,9 @@ FrameView view_of(const SceneFrame& frame, const Viewpoint& camera, double robus
   view.scene = &frame;
   if (view.from_camera.gamma() > robust_from && (events_wanted || frame.surfaces->size() > 0)) {
     view.far = std::make_shared<const FarView>(
-        FarView{ExtendedTransform(frame.motion.celerity, camera.celerity), event,
-                frame.surfaces->bounds_of_bounded(), unbounded_of(*frame.surfaces)});
+        FarView{ExtendedTransform(frame.motion.celerity, camera.celerity),
+                ExtendedTransform(frame.motion.celerity, {}), event, frame.surfaces->bounds_of_bounded(),
+                unbounded_of(*frame.surfaces)});
   }
   return view;
 }
@@ -34,6 +35,7 @@ LightView view_of(const Light& light, const Scene& scene, double robust_from) {
   const ExtendedVec3& own = scene.frames[static_cast<std::size_t>(light.frame)].motion.celerity;
   LightView view;
   view.light = &light;
+  if (own != ExtendedVec3{}) view.to_world.emplace(ExtendedVec3{}, own);
   view.to_frame.reserve(scene.frames.size());
   for (const SceneFrame& frame : scene.frames) {
     view.to_frame.push_back(relative_transform<Rest, Source>(frame.motion.celerity, own, robust_from));

@@ -93,13 +93,12 @@ bool passes_by(const BoundingSphere& bounds, const Vec3& start, const Vec3& dire
 
 // The shadow of a frame with a FarView on a point of another: the segment is brought next to the surfaces
 // that have bounds as rays are.
-bool is_shadowed_far(const FrameView& view, const InertialFrame& lamp, RayInFrames& rays, const FirstHit& hit,
+bool is_shadowed_far(const FrameView& view, const LightView& light, const ExtendedEvent& start,
                      const ShadowSegment& segment, Search search) {
   const SurfaceSet& surfaces = *view.scene->surfaces;
-  const ExtendedEvent start = far_event(*view.far, rays.ray(), hit.lambda);
   const ExtendedVec3 way{segment.direction.x};
-  const ExtendedEvent k =
-      ExtendedTransform(view.scene->motion.celerity, lamp.celerity)({-sqrt(dot(way, way)), way});
+  const ExtendedEvent along{-sqrt(dot(way, way)), way};
+  const ExtendedEvent k = view.far->from_world(light.to_world ? (*light.to_world)(along) : along);
   RestRayEvents events{start.x.rounded(), k.x.rounded(), double(start.t), double(k.t), 0.0};
   for (const int surface : view.far->unbounded) {
     if (!surfaces.casts_shadow(surface)) continue;
@@ -126,20 +125,22 @@ bool is_shadowed_in(int frame, const Hub& hub, RayInFrames& rays, const FirstHit
     return surfaces.blocked(segment.start_in_surface_frame, segment.direction_in_surface_frame, segment.end,
                             segment.clock_in_surface_frame, hub.search);
   }
-  const Event<Rest> start = rays.in(frame).at(hit.lambda);
   const auto& to_frame = light.to_frame[static_cast<std::size_t>(frame)];
   if (!light.retarded_shadows) {
+    const Event<Rest> start = rays.in(frame).at(hit.lambda);
     const Displacement<Rest> now = to_frame(Displacement<Source>{0.0, segment.direction.x});
     return surfaces.blocked(start.x, now.x, segment.end, {start.t, now.t}, hub.search);
   }
   const NullDirection<Rest> direction = to_frame(segment.direction);
   if (!view.far) {
+    const Event<Rest> start = rays.in(frame).at(hit.lambda);
     return surfaces.blocked(start.x, direction.x, segment.end, {start.t, -direction.length}, hub.search);
   }
+  const ExtendedEvent start = far_event(*view.far, rays.ray(), hit.lambda);
   const double doubt = 1e-12 + 1e-14 * (to_frame.gamma() + view.from_camera.gamma());
-  if (view.far->unbounded.empty() && passes_by(view.far->bounds, start.x, direction.x, doubt)) return false;
-  const InertialFrame& lamp = hub.frames[static_cast<std::size_t>(light.light->frame)].scene->motion;
-  return is_shadowed_far(view, lamp, rays, hit, segment, hub.search);
+  const bool bounded = view.far->unbounded.empty();
+  if (bounded && passes_by(view.far->bounds, start.x.rounded(), direction.x, doubt)) return false;
+  return is_shadowed_far(view, light, start, segment, hub.search);
 }
 
 bool is_shadowed(const Hub& hub, RayInFrames& rays, const FirstHit& hit, const LightView& light,

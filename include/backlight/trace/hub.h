@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "backlight/base/shared_vector.h"
@@ -19,6 +20,7 @@ namespace backlight {
 /// frame's surfaces than the light travels, and rays are brought next to them in extended precision.
 struct FarView {
   ExtendedTransform from_camera;
+  ExtendedTransform from_world;
   ExtendedEvent camera_event;
   BoundingSphere bounds;       ///< of those surfaces of the frame that have bounds
   std::vector<int> unbounded;  ///< the others: rays are brought next to where they meet each
@@ -48,6 +50,7 @@ struct ModelPieces {
 struct LightView {
   const Light* light = nullptr;
   std::vector<LorentzTransform<Rest, Source>> to_frame;  ///< by frame index
+  std::optional<ExtendedTransform> to_world;             ///< none: the light is at rest there
   bool retarded_shadows = true;                          ///< as of ModelPieces
 };
 
