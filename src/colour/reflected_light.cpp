@@ -12,8 +12,8 @@ namespace {
 // The first bits of a number's fraction, and its exponent, say which node is at or below it.
 constexpr int bits_below_node = 45;
 
-// Nodes: most of what a picture of fifty coloured things in motion asks for, so that few are worked out twice. Cells: as many
-// as stay in a processor's second cache.
+// Nodes: most of what a picture of fifty coloured things in motion asks for, so that few are worked out
+// twice. Cells: as many as stay in a processor's second cache.
 constexpr std::size_t node_places = 16384;
 constexpr std::size_t cell_places = 128;
 
