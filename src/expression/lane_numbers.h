@@ -7,8 +7,8 @@
 // with Bounds.
 #pragma once
 
+#include "backlight/base/lane_waves.h"
 #include "backlight/base/lanes.h"
-#include "lane_waves.h"
 #include "line_work.h"
 
 namespace backlight {

@@ -75,6 +75,7 @@ std::optional<Expression> body_formula(Compilation& c, const TableView& table, c
           "it somewhere else for each image");
       return std::nullopt;
     case ShapeKind::csg:
+    case ShapeKind::travelling_ball:
       break;
   }
   return std::nullopt;

@@ -273,6 +273,7 @@ std::optional<Expression> formula_of(const Shape& shape) {
     case ShapeKind::csg:
     case ShapeKind::implicit:
     case ShapeKind::mesh:
+    case ShapeKind::travelling_ball:
       break;
   }
   return std::nullopt;

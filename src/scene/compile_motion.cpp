@@ -7,6 +7,8 @@
 
 #include "backlight/expression/enclosure.h"
 #include "backlight/surface/implicit_surface.h"
+#include "backlight/surface/mesh.h"
+#include "backlight/surface/wave_path.h"
 #include "body_formula.h"
 #include "camera_motion.h"
 #include "compile_formulas.h"
@@ -19,15 +21,21 @@
 namespace backlight {
 namespace {
 
+bool place_uses_time(const Description& description, const Node& table);
+
+bool parts_use_time(const Description& description, const Node& table) {
+  const Entry* parts = find(table, "part");
+  if (parts == nullptr || parts->node.array() == nullptr) return false;
+  return std::ranges::any_of(*parts->node.array(),
+                             [&](const Node& part) { return place_uses_time(description, part); });
+}
+
 bool place_uses_time(const Description& description, const Node& table) {
   for (const std::string_view key : {"position", "rotate", "scale"}) {
     const Entry* entry = find(table, key);
     if (entry != nullptr && uses_time(description, entry->node)) return true;
   }
-  const Entry* parts = find(table, "part");
-  if (parts == nullptr || parts->node.array() == nullptr) return false;
-  return std::ranges::any_of(*parts->node.array(),
-                             [&](const Node& part) { return place_uses_time(description, part); });
+  return parts_use_time(description, table);
 }
 
 /// Matter that flows together has no velocity of its parts: whether a table's blends are at rest in
@@ -113,6 +121,17 @@ Vec3 take_middle(std::array<Expression, 3>& formulas) {
   return middle;
 }
 
+/// Of a ball that stays one while it goes along a path of waves, turning or not.
+std::optional<double> radius_of_ball(const Shape& shape, const std::vector<MotionLevel>& levels) {
+  if (shape.kind != ShapeKind::sphere || levels.size() != 1) return std::nullopt;
+  const MotionLevel& level = levels.front();
+  const auto scale = constants_of(level.scale);
+  const bool round =
+      scale && std::abs(scale->x) == std::abs(scale->y) && std::abs(scale->x) == std::abs(scale->z);
+  const bool travels = !level.rocket && !constants_of(level.position) && WavePath::of(level.position, 1.0);
+  return round && travels ? std::optional(shape.values[0] * std::abs(scale->x)) : std::nullopt;
+}
+
 class MotionCompiler {
  public:
   MotionCompiler(Compilation& c, const TableView& object, int frame)
@@ -126,8 +145,9 @@ class MotionCompiler {
     take_rocket(object_, c_.scene.c, whole);
     if (c_.values.diagnostics.error_count() > errors) return std::nullopt;
     MovingShape moving;
-    moving.placement = Placement(offset + take_middle(whole.position), Vec3{0.0}, Vec3{1.0});
-    offset_ = moving.placement.position();
+    moving.placement = Placement(take_middle(whole.position), Vec3{0.0}, Vec3{1.0});
+    offset_ = offset + moving.placement.position();
+    if (auto carried = carry(shape, whole, moving.placement.position())) return carried;
     SolidTree tree;
     if (solid != nullptr) {
       tree = *solid;
@@ -142,10 +162,29 @@ class MotionCompiler {
       moving.placement = moving.placement.around(tree.placement);
     }
     moving.shape.presence = shape.presence;
+    moving.proved_anywhere = proved_anywhere_;
     return moving;
   }
 
  private:
+  /// What goes straight on as a whole keeps its own form.
+  [[nodiscard]] std::optional<MovingShape> carry(const Shape& shape, const MotionLevel& whole,
+                                                 const Vec3& middle) const {
+    const auto rotate = constants_of(whole.rotate), scale = constants_of(whole.scale);
+    const bool is_whole = rotate && scale && !whole.rocket && !shape.motion && !is_infinite(shape);
+    if (!is_whole || parts_use_time(c_.values.description, *object_.node())) return std::nullopt;
+    const auto path = WavePath::of(whole.position, 1.0 / c_.scene.c);
+    if (!path || !path->is_straight() || path->is_still() || !(path->most_speed() < 1.0)) return std::nullopt;
+    const Placement turned(Vec3{0.0}, *rotate, *scale);
+    const Vec3 centre = shape.mesh ? turned.rest_from_local() * shape.mesh->centre() : Vec3{0.0};
+    MovingShape moving{shape, Placement(middle + path->start() + centre, *rotate, *scale)};
+    SurfaceSet one;
+    one.add(shape, turned);
+    moving.shape.motion =
+        std::make_shared<const MatterMotion>(path->velocity(), one.bounds(0).radius, clock_of(c_));
+    return moving;
+  }
+
   bool put_parts_in_motion(const TableView& table, SolidTree& tree, const std::vector<MotionLevel>& levels,
                            bool closed) {
     tree.placement = Placement{};
@@ -175,7 +214,9 @@ class MotionCompiler {
     }
     leaf.placement = *rest;
     if (!moves) return true;
-    if (!prover_.prove(table, levels, hull_of(leaf.shape), offset_)) return false;
+    const auto proof = prover_.prove(table, levels, hull_of(leaf.shape), offset_);
+    if (!proof) return false;
+    proved_anywhere_ = proved_anywhere_ && std::isinf(proof->begins);
     leaf.shape.motion = std::make_shared<const MatterMotion>(body_within(levels, at_rest(levels)), leaf.shape,
                                                              std::nullopt, clock_of(c_));
     return true;
@@ -183,18 +224,27 @@ class MotionCompiler {
 
   std::optional<Shape> leaf_in_motion(const TableView& table, const Shape& shape,
                                       const std::vector<MotionLevel>& levels, bool closed) {
-    auto formula = body_formula(c_, table, shape, closed);
-    if (!formula) return std::nullopt;
+    const auto ball_radius = closed ? std::nullopt : radius_of_ball(shape, levels);
+    auto formula = ball_radius ? std::nullopt : body_formula(c_, table, shape, closed);
+    if (!formula && !ball_radius) return std::nullopt;
     SurfaceSet one;
     one.add(shape, Placement{});
     const TableView& in_motion = place_uses_time(c_.values.description, *table.node()) ? table : object_;
     const std::vector<HullBall> hull = hull_of(shape);
     const auto proof = prover_.prove(in_motion, levels, hull, offset_);
     if (!proof) return std::nullopt;
+    proved_anywhere_ = proved_anywhere_ && std::isinf(proof->begins);
     const MatterMotion::Body body = body_of(levels);
     const Interval times = times_of(*proof);
     const double radius = one.bounds(0).radius * stretch_of(levels, times.lower, times.upper);
-    const MatterMotion::Ball ball = ball_of(body, *proof, radius * (1.0 + 1e-12), c_.scene.c);
+    MatterMotion::Ball ball = ball_of(body, *proof, radius * (1.0 + 1e-12), c_.scene.c);
+    // Whatever turns about it is no part of its path.
+    if (levels.size() == 1 && !levels.front().rocket) ball.path = levels.front().position;
+    if (ball_radius) {
+      const bool turns = !constants_of(levels.front().rotate);
+      return travelling_ball(*ball_radius, turns,
+                             std::make_shared<const MatterMotion>(body, shape, ball, clock_of(c_)));
+    }
     Vec3 low{0.0}, high{0.0};
     bool rests = std::isinf(ball.begins);
     const Reach box = box_of(hull);
@@ -243,6 +293,7 @@ class MotionCompiler {
   const TableView& object_;
   SpeedProver prover_;
   Vec3 offset_{0.0};
+  bool proved_anywhere_ = true;
 };
 
 std::array<Expression, 3> formulas_of(const TableView& table, std::string_view key, const Vec3& now) {

@@ -20,14 +20,15 @@ std::shared_ptr<const MatterMotion> path_of(Compilation& c, const TableView& lig
 /// Reports what a thing with this velocity of its own says of its motion besides.
 void check_motions_apart(const TableView& thing, const ExtendedVec3& celerity);
 
-/// A surface that moves, with its placement in the frame.
+/// A surface that moves, with its placement in the frame, but for an offset.
 struct MovingShape {
   Shape shape;
   Placement placement;
+  bool proved_anywhere = true;  ///< to be slower than light at all times, so that it is the same elsewhere
 };
 
 /// The object whose shape at the image's time is `shape`, in motion in the scene's frame of index `frame`:
-/// `offset` is added to its position. Nothing when it cannot move so, which has then been reported.
+/// `offset` is to be added to its position. Nothing when it cannot move so, which has then been reported.
 std::optional<MovingShape> put_in_motion(Compilation& c, const TableView& object, int frame,
                                          const Shape& shape, const SolidTree* solid, const Vec3& offset);
 

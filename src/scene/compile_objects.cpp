@@ -267,11 +267,15 @@ class ObjectCompiler {
 
   void add_in_motion(int index, const TableView& keys, int frame, const CompiledShape& compiled,
                      const Lattice& lattice, FrameBuilder& builder) {
+    std::optional<MovingShape> moving;
     for (std::size_t copy = 0; copy < lattice.copies(); ++copy) {
+      const Vec3 offset = lattice.offset(copy);
       const SolidTree* solid = compiled.solid ? &*compiled.solid : nullptr;
-      const auto moving = put_in_motion(c_, keys, frame, compiled.shape, solid, lattice.offset(copy));
+      if (!moving || !moving->proved_anywhere)
+        moving = put_in_motion(c_, keys, frame, compiled.shape, solid, offset);
       if (!moving) return;
-      builder.surfaces.add(moving->shape, moving->placement, keys.boolean("casts_shadow"));
+      const Placement placement = Placement(offset, Vec3{0.0}, Vec3{1.0}).around(moving->placement);
+      builder.surfaces.add(moving->shape, placement, keys.boolean("casts_shadow"));
       builder.object_of_surface.push_back(index);
     }
   }

@@ -247,6 +247,8 @@ std::string_view code_of(RootFinder finder) {
       return "affine";
     case RootFinder::triangles:
       return "triangles";
+    case RootFinder::taylor:
+      return "taylor";
     case RootFinder::solid:
       break;
   }

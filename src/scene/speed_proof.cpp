@@ -257,6 +257,7 @@ std::vector<HullBall> hull_of(const Shape& shape) {
     case ShapeKind::quadric:
     case ShapeKind::csg:
     case ShapeKind::mesh:
+    case ShapeKind::travelling_ball:
       break;
   }
   SurfaceSet one;

@@ -16,6 +16,7 @@ namespace backlight {
 struct ClosedForm {
   static constexpr bool encloses = true, is_convex = true, is_flat = false;  ///< ShapeMethods
   static constexpr bool is_boxed = false;  ///< may fill much more of its box than of a ball
+  static constexpr bool travels = false;   ///< is asked otherwise, since it is another one at each time
 };
 
 /// Up to two crossings of a line, in order, and the faces; not a number: there is none. (As Crossings.)
@@ -327,7 +328,7 @@ struct QuadricForm : ClosedForm {
 };
 
 /// The points alone: its crossings are found by torus_lanes.h.
-struct TorusForm {
+struct TorusForm : ClosedForm {
   static constexpr bool unit_gradient = false;
 
   template <class V>
@@ -340,35 +341,5 @@ struct TorusForm {
     return {{p.x * on_rho, p.y * scale, p.z * on_rho}, {p.x * per_rho * beside, p.y, p.z * per_rho * beside}};
   }
 };
-
-/// Calls `use` with the closed form of a kind; false: it has none of so few crossings.
-template <class Use>
-BACKLIGHT_LANES bool with_form(ShapeKind kind, Use&& use) {
-  switch (kind) {
-    case ShapeKind::sphere:
-      use(SphereForm{});
-      return true;
-    case ShapeKind::box:
-      use(BoxForm{});
-      return true;
-    case ShapeKind::cylinder:
-      use(FrustumForm<true>{});
-      return true;
-    case ShapeKind::cone:
-      use(FrustumForm<false>{});
-      return true;
-    case ShapeKind::disk:
-      use(FlatForm<true>{});
-      return true;
-    case ShapeKind::plane:
-      use(FlatForm<false>{});
-      return true;
-    case ShapeKind::quadric:
-      use(QuadricForm{});
-      return true;
-    default:
-      return false;
-  }
-}
 
 }  // namespace backlight

@@ -146,7 +146,8 @@ class Batch {
 
 /// Of the coordinates about a point of the surface: what goes away has no bounds that say it.
 double size_at(const Shape& shape, const Vec3& p) {
-  if (shape.motion && shape.motion->ball()) return 2.0 * shape.motion->ball()->radius + glm::length(p);
+  const bool goes_away = shape.motion && shape.motion->ball() && shape.motion->carriage() == nullptr;
+  if (goes_away) return 2.0 * shape.motion->ball()->radius + glm::length(p);
   return glm::length(implicit_high(shape) - implicit_low(shape));
 }
 

@@ -28,9 +28,9 @@ Vec3 high_of(const Shape& shape) {
   return implicit_high(shape);
 }
 
-/// Whether the bounds go along a path.
+/// Whether the bounds go along a path in local coordinates.
 bool goes_away(const Shape& shape) {
-  return shape.motion && shape.motion->ball();
+  return shape.motion && shape.motion->ball() && shape.motion->carriage() == nullptr;
 }
 
 std::string problem_of(const Shape& shape) {

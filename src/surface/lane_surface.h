@@ -14,6 +14,8 @@
 
 namespace backlight {
 
+struct LanePath;
+
 struct LaneSurface {
   ShapeKind kind = ShapeKind::sphere;
   bool aligned = false;  ///< neither turned nor scaled: the matrices are the unit matrix
@@ -22,10 +24,12 @@ struct LaneSurface {
   LaneMatrix local_from_rest{};
   LaneMatrix rest_from_local{};
   double largest_scale = 1.0;
-  double radius = 0.0;   ///< of the bounding sphere about the centre, rest frame; may be infinite
-  double values[10]{};   ///< Shape::values
-  double half[3]{};      ///< of the box about the local origin, local; of what has bounds
-  double stretch = 0.0;  ///< no less than what local_from_rest makes of lengths
+  double radius = 0.0;             ///< of the bounding sphere about the centre, rest frame; may be infinite
+  double values[10]{};             ///< Shape::values
+  const LanePath* path = nullptr;  ///< of what goes along one
+  bool is_carried = false;         ///< the local coordinates go along it, which is straight
+  double half[3]{};                ///< of the box about the local origin, local; of what has bounds
+  double stretch = 0.0;            ///< no less than what local_from_rest makes of lengths
 };
 
 /// Rays in the rest frame of a surface.
@@ -44,6 +48,10 @@ struct LaneLine {
   V lambda_centre, lambda_shift, lambda_per_length;
 
   BACKLIGHT_LANES V lambda(V t) const { return lambda_centre + (lambda_shift + t * lambda_per_length); }
+  /// The other way.
+  BACKLIGHT_LANES V at_lambda(V lambda) const {
+    return (lambda - lambda_centre - lambda_shift) / lambda_per_length;
+  }
   BACKLIGHT_LANES LaneVec3<V> at(V t) const { return point + t * direction; }
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "backlight/expression/enclosure.h"
+#include "lane_path.h"
 #include "own_time.h"
 
 namespace backlight {
@@ -32,7 +33,17 @@ MatterMotion::Centre rates_of(const MatterMotion::Map& map, const Vec3& x, doubl
 MatterMotion::MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball, Time time)
     : body_(std::move(body)), body_shape_(body_shape), ball_(std::move(ball)), time_(time) {
   if (ball_) waves_ = WavePath::of(ball_->path, time_.seconds_per_length);
+  if (!waves_) return;
+  path_ = waves_->lanes();
+  path_.speed = std::min(path_.speed, ball_->speed);
 }
+
+MatterMotion::MatterMotion(const Vec3& velocity, double radius, Time time)
+    : carriage_(velocity),
+      ball_(Ball{{}, radius, glm::length(velocity)}),
+      waves_(WavePath::straight(velocity)),
+      path_(waves_->lanes()),
+      time_(time) {}
 
 MatterMotion::MatterMotion(Map velocity, Time time) : velocity_(std::move(velocity)), time_(time) {}
 
@@ -87,11 +98,18 @@ double MatterMotion::strays(const Vec3& velocity, double time, double half_time)
 }
 
 MatterMotion::Centre MatterMotion::near_centre(double time) const {
-  return waves_ ? waves_->at(time) : centre(time);
+  return waves_ ? moment_of(path_, time) : centre(time);
 }
 
 MatterMotion::Centre MatterMotion::centre(double time) const {
+  if (carriage_) return moment_of(path_, time);
   return rates_of(ball_->path, Vec3{0.0}, time_.seconds_per_length * time, time_.seconds_per_length);
+}
+
+Vec3 MatterMotion::farthest() const {
+  const bool stays = waves_->velocity() == Vec3{0.0};  // but for waves
+  if (!stays) return Vec3{std::numeric_limits<double>::infinity()};
+  return glm::abs(waves_->start()) + waves_->farthest() + Vec3(ball_->radius);
 }
 
 }  // namespace backlight

@@ -62,20 +62,11 @@ Stretch inside_ball(const MatterMotion& motion, const LocalLine& line) {
   const double begin = (ball.begins - line.clock.start) / line.clock.rate;
   if (line.clock.rate < 0.0) stretch.out = std::min(stretch.out, begin);
   if (line.clock.rate > 0.0) stretch.in = std::max(stretch.in, begin);
+  if (line.clock.rate == 0.0 && line.clock.start < ball.begins) stretch.close();
   return stretch;
 }
 
 namespace {
-
-/// The ball about a moment: no farther than `radius` from centre + velocity (t - time), while that is within
-/// half_time.
-struct Passing {
-  double time = 0.0;
-  double half_time = 0.0;
-  Vec3 centre{0.0};
-  Vec3 velocity{0.0};
-  double radius = 0.0;
-};
 
 Passing passing_at(const MatterMotion& motion, const MatterMotion::Centre& centre, double time,
                    double half_time) {
@@ -153,7 +144,13 @@ Passing passing_of_light(const MatterMotion& motion, const Vec3& place, double t
   const double reach =
       ball.radius + apart + 2.0 * (doubt + motion.near_centre_doubt(time)) + 1e-12 * std::abs(time);
   if (motion.is_quick()) {
-    const double middle = meeting_with_light(motion, place, time, way, doubt, time).first;
+    // From where the waves are about.
+    const LanePath& path = *motion.path();
+    Vec3 about{path.start[0], path.start[1], path.start[2]};
+    for (int k = 0; k < 3; ++k) about[k] += time * path.velocity[k];
+    const double way_there = glm::length(about - place);
+    const double guess = way == Way::arrives ? time - way_there : time + way_there;
+    const double middle = meeting_with_light(motion, place, time, way, doubt, guess).first;
     const MatterMotion::Centre centre = motion.near_centre(middle);
     const double half_time = half_time_about(motion, centre, place, way, reach);
     if (half_time < infinite && middle - half_time > ball.begins && middle + half_time < until)
@@ -245,13 +242,20 @@ BoundingSphere sphere_of(const Passing& passing, const Vec3& place, double time)
 
 }  // namespace
 
+Passing passing_seen_from(const MatterMotion& motion, const Vec3& place, double time) {
+  return passing_of_light(motion, place, time, Way::arrives, 0.0);
+}
+
+Passing passing_lit_from(const MatterMotion& motion, const LightFlash& flash) {
+  return passing_of_light(motion, flash.place, flash.time, Way::leaves, flash.apart, flash.until);
+}
+
 BoundingSphere seen_from(const MatterMotion& motion, const Vec3& place, double time) {
-  return sphere_of(passing_of_light(motion, place, time, Way::arrives, 0.0), place, time);
+  return sphere_of(passing_seen_from(motion, place, time), place, time);
 }
 
 BoundingSphere lit_from(const MatterMotion& motion, const LightFlash& flash) {
-  const Passing passing =
-      passing_of_light(motion, flash.place, flash.time, Way::leaves, flash.apart, flash.until);
+  const Passing passing = passing_lit_from(motion, flash);
   if (passing.half_time < 0.0) return {};
   return sphere_of(passing, flash.place, flash.time);
 }

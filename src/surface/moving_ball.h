@@ -23,4 +23,17 @@ BoundingSphere seen_from(const MatterMotion& motion, const Vec3& place, double t
 /// meets it later.
 BoundingSphere lit_from(const MatterMotion& motion, const LightFlash& flash);
 
+/// What light that arrives at an event meets of the motion's ball: while it does, no farther than `radius`
+/// from centre + velocity (t - time). The radius is infinite where that is not known.
+struct Passing {
+  double time = 0.0;
+  double half_time = 0.0;
+  Vec3 centre{0.0};
+  Vec3 velocity{0.0};
+  double radius = 0.0;
+};
+Passing passing_seen_from(const MatterMotion& motion, const Vec3& place, double time);
+/// The same of light that leaves at a flash.
+Passing passing_lit_from(const MatterMotion& motion, const LightFlash& flash);
+
 }  // namespace backlight

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "backlight/surface/matter_motion.h"
 #include "shape_table.h"
 
 namespace backlight {
@@ -38,6 +39,8 @@ PlacedSurface place(const Shape& shape, const Placement& placement) {
   }
   lanes.largest_scale = std::max({scale.x, scale.y, scale.z});
   lanes.radius = slack * methods(shape).bounding_radius(shape, scale);
+  lanes.path = shape.motion ? shape.motion->path() : nullptr;
+  lanes.is_carried = shape.motion && shape.motion->carriage() != nullptr;
   std::copy(shape.values.begin(), shape.values.end(), lanes.values);
   for (int i = 0; i < 3; ++i) {
     const Vec3 row{lanes.local_from_rest.column[0][i], lanes.local_from_rest.column[1][i],

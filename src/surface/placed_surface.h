@@ -1,6 +1,8 @@
 // A shape with its placement and the bounds that follow from the two.
 #pragma once
 
+#include <limits>
+
 #include "backlight/surface/placement.h"
 #include "backlight/surface/shape.h"
 #include "lane_surface.h"
@@ -23,8 +25,10 @@ struct PlacedSurface {
   LaneSurface lanes;
 
   [[nodiscard]] Vec3 position() const { return {lanes.centre[0], lanes.centre[1], lanes.centre[2]}; }
-  /// Of the bounding sphere about position(), rest frame; may be infinite.
-  [[nodiscard]] double radius() const { return lanes.radius; }
+  /// Of the bounding sphere about position(), rest frame, for all times; may be infinite.
+  [[nodiscard]] double radius() const {
+    return lanes.is_carried ? std::numeric_limits<double>::infinity() : lanes.radius;
+  }
 };
 
 PlacedSurface place(const Shape& shape, const Placement& placement);

@@ -9,9 +9,10 @@ namespace backlight {
 namespace {
 
 // In the order of ShapeKind.
-constexpr std::array<const ShapeMethods*, 11> table{
-    &sphere_methods, &box_methods,     &cylinder_methods, &cone_methods,     &torus_methods, &disk_methods,
-    &plane_methods,  &quadric_methods, &csg_methods,      &implicit_methods, &mesh_methods};
+constexpr std::array<const ShapeMethods*, 12> table{
+    &sphere_methods, &box_methods,      &cylinder_methods, &cone_methods,
+    &torus_methods,  &disk_methods,     &plane_methods,    &quadric_methods,
+    &csg_methods,    &implicit_methods, &mesh_methods,     &travelling_ball_methods};
 
 }  // namespace
 
@@ -95,6 +96,8 @@ std::string_view name(RootFinder finder) {
       return "reduced affine";
     case RootFinder::triangles:
       return "triangles";
+    case RootFinder::taylor:
+      return "Taylor";
     case RootFinder::solid:
       break;
   }
@@ -104,7 +107,7 @@ std::string_view name(RootFinder finder) {
 std::string root_finding(const Shape& shape) {
   std::string words{name(root_finder(shape))};
   if (!shape.solid) return words;
-  std::array<bool, 6> named{};
+  std::array<bool, 7> named{};
   const char* before = " of ";
   for (const Solid::Leaf& leaf : shape.solid->leaves()) {
     const RootFinder finder = root_finder(leaf.surface.shape);

@@ -134,7 +134,8 @@ Crossings crossings_of_one(const Shape& shape, const LocalLine& line, double lam
 LocalPoint point_of_one(const Shape& shape, const LocalLine& line, const Crossing& crossing);
 
 extern const ShapeMethods sphere_methods, box_methods, cylinder_methods, cone_methods, torus_methods,
-    disk_methods, plane_methods, quadric_methods, csg_methods, implicit_methods, mesh_methods;
+    disk_methods, plane_methods, quadric_methods, csg_methods, implicit_methods, mesh_methods,
+    travelling_ball_methods;
 
 // Words and numbers that several shapes share.
 
@@ -155,6 +156,9 @@ void texture_of_disc(double radius, double side, LocalPoint& point);
 /// The texture coordinates of a point of a body's surface, where only its place is known: longitude and
 /// latitude where it has none of its own.
 void texture_of_body(const Shape& body, LocalPoint& point);
+
+/// Whether the matter of a travelling ball has other velocities than its centre.
+bool travelling_ball_turns(const Shape& shape);
 
 /// u = x, v = z.
 void texture_of_place(const Shape& shape, int part, LocalPoint& point);

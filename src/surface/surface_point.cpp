@@ -1,6 +1,7 @@
 #include "surface_point.h"
 
 #include "backlight/surface/matter_motion.h"
+#include "lane_path.h"
 
 namespace backlight {
 
@@ -17,8 +18,8 @@ LocalPoint with_motion(const PlacedSurface& surface, const MatterMotion& motion,
   Mat3 rest_from_local(1.0);
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r) rest_from_local[c][r] = surface.lanes.rest_from_local.column[c][r];
+  if (!point.moves) point.velocity = motion.velocity(point.position, time);
   point.moves = true;
-  point.velocity = motion.velocity(point.position, time);
   if (motion.counts_time()) point.own_time = motion.own_time(point.position, time, rest_from_local);
   if (const Shape* body = motion.body_shape(); body != nullptr) {
     LocalPoint of_body{.position = motion.body_point(point.position, time)};
@@ -53,7 +54,25 @@ SurfacePoint placed_point(const PlacedSurface& surface, const LocalPoint& point)
           .own_time = point.own_time};
 }
 
+namespace {
+
+/// In the frame, of what is carried straight on and found in its own coordinates.
+SurfacePoint carried_point(const PlacedSurface& surface, const LocalPoint& point, double time) {
+  SurfacePoint placed = placed_point(surface, point);
+  const CarriedPlace<Lanes<1>> place =
+      carried<Lanes<1>>(surface.lanes, {one_lane(placed.position), {}, placed.error_bound}, time);
+  placed.position = vec3(place.position);
+  placed.error_bound = place.error_bound.v;
+  placed.moves = true;
+  placed.velocity = *surface.shape.motion->carriage();
+  placed.own_time = place.own_time.v;
+  return placed;
+}
+
+}  // namespace
+
 SurfacePoint surface_point(const PlacedSurface& surface, const LocalPoint& point, double time) {
+  if (surface.lanes.is_carried) return carried_point(surface, point, time);
   const MatterMotion* motion = surface.shape.motion.get();
   SurfacePoint placed =
       placed_point(surface, motion != nullptr ? with_motion(surface, *motion, point, time) : point);

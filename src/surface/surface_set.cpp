@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "backlight/surface/matter_motion.h"
 #include "csg_solid.h"
 #include "hierarchy.h"
 #include "local_line.h"
@@ -16,6 +17,13 @@
 namespace backlight {
 namespace {
 
+/// The ray in coordinates that go along with a surface that is carried straight on: there it is at rest.
+RestRay along_with(const PlacedSurface& surface, const RestRay& ray) {
+  if (!surface.lanes.is_carried) return ray;
+  const Vec3& velocity = *surface.shape.motion->carriage();
+  return {ray.origin - ray.clock.start * velocity, ray.direction - ray.clock.rate * velocity, ray.clock};
+}
+
 /// The first crossing of a line beyond λ = 0.
 Hit first_of(const Crossings& found, const LocalLine& line, int surface) {
   for (int i = 0; i < found.count; ++i) {
@@ -25,7 +33,8 @@ Hit first_of(const Crossings& found, const LocalLine& line, int surface) {
   return {};
 }
 
-Hit first_crossing(const PlacedSurface& surface, int index, const RestRay& ray) {
+Hit first_crossing(const PlacedSurface& surface, int index, const RestRay& given) {
+  const RestRay ray = along_with(surface, given);
   if (surface.shape.presence) return first_present(surface, index, local_line(ray, surface));
   if (surface.shape.kind == ShapeKind::plane) {
     const double lambda = plane_lambda(surface.lanes, one_lane(ray)).v;
@@ -40,10 +49,15 @@ bool is_blocked_by(const PlacedSurface& surface, const RestRay& ray, double lamb
   const auto blocks = methods(surface.shape).blocks;
   if (blocks == nullptr || surface.shape.presence) return first_crossing(surface, 0, ray).lambda < lambda_max;
   LocalLines line;
-  line.add(local_line(ray, surface));
+  line.add(local_line(along_with(surface, ray), surface));
   bool result = false;
   blocks(surface.shape, line, 0.0, lambda_max, {&result, 1});
   return result;
+}
+
+/// Whether it fits into no sphere at rest.
+bool is_unbounded(const PlacedSurface& surface) {
+  return std::isinf(surface.radius());
 }
 
 void put(RaySheet& sheet, const Vec3& origin, const Vec3& direction, const RayClock& clock) {
@@ -113,7 +127,9 @@ bool SurfaceSet::any_moves() const {
 
 double SurfaceSet::opaque_radius(int surface) const {
   const LaneSurface& lanes = at(surface).lanes;
-  return lanes.kind == ShapeKind::sphere && lanes.aligned && lanes.casts_shadow ? lanes.values[0] : 0.0;
+  return lanes.kind == ShapeKind::sphere && lanes.aligned && lanes.casts_shadow && !lanes.is_carried
+             ? lanes.values[0]
+             : 0.0;
 }
 
 void SurfaceSet::reserve(std::size_t count) {
@@ -145,7 +161,7 @@ void SurfaceSet::build() {
   std::vector<AxisBox> boxes;
   std::vector<int> bounded;
   for (int i = 0; i < static_cast<int>(surfaces_.size()); ++i) {
-    (is_infinite(shape(i)) ? direct_ : bounded).push_back(i);
+    (is_unbounded(at(i)) ? direct_ : bounded).push_back(i);
   }
   unbounded_ = direct_.size();
   boxes.reserve(bounded.size());
@@ -167,7 +183,7 @@ Hit SurfaceSet::nearest(const Vec3& origin, const Vec3& direction, double lambda
   if (search == Search::every_surface) {
     best.lambda = lambda_limit;
     for (int i = 0; i < static_cast<int>(surfaces_.size()); ++i) {
-      if (among == Among::bounded && is_infinite(shape(i))) continue;
+      if (among == Among::bounded && is_unbounded(at(i))) continue;
       const Hit hit = first_crossing(at(i), i, {origin, direction, clock});
       if (hit.lambda < best.lambda) best = hit;
     }
@@ -188,7 +204,7 @@ bool SurfaceSet::blocked(const Vec3& origin, const Vec3& direction, double lambd
                          Search search, Among among) const {
   if (search == Search::every_surface) {
     for (int i = 0; i < static_cast<int>(surfaces_.size()); ++i) {
-      if (!casts_shadow(i) || (among == Among::bounded && is_infinite(shape(i)))) continue;
+      if (!casts_shadow(i) || (among == Among::bounded && is_unbounded(at(i)))) continue;
       if (is_blocked_by(at(i), {origin, direction, clock}, lambda_max)) return true;
     }
     return false;
@@ -202,7 +218,7 @@ SurfacePoint SurfaceSet::resolve(const Hit& hit, const Vec3& origin, const Vec3&
                                  const RayClock& clock) const {
   assert(hit.found());
   const PlacedSurface& surface = at(hit.surface);
-  const LocalLine line = local_line({origin, direction, clock}, surface);
+  const LocalLine line = local_line(along_with(surface, {origin, direction, clock}), surface);
   if (!std::isnan(hit.along)) return surface_point(surface, line, {hit.along, hit.part, hit.unresolved});
   // A plane, whose λ has a formula of its own; at λ itself where it is all but parallel to the ray.
   const Crossings found = crossings(surface.shape, line, 0.0, Wanted::first);

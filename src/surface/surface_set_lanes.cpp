@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "backlight/surface/matter_motion.h"
 #include "backlight/surface/surface_set.h"
+#include "moving_ball.h"
 #include "presence.h"
 #include "shape_table.h"
 #include "surface_kernels.h"
@@ -84,6 +86,42 @@ std::uint64_t blocked_by(const void* set, int index, std::uint64_t rays, const R
   return all;
 }
 
+/// Where the rays are at λ: about one of them.
+LightFlash flash_of(const RaySheet& sheet, std::uint64_t rays, double lambda) {
+  LightFlash flash;
+  bool any = false;
+  for (; rays != 0; rays &= rays - 1) {
+    const int ray = __builtin_ctzll(rays), from = sheet.one_origin ? 0 : ray;
+    const double time = sheet.start_time[from] + lambda * sheet.time_rate[ray];
+    Vec3 place{0.0};
+    for (int k = 0; k < 3; ++k) place[k] = sheet.origin[k][from] + lambda * sheet.direction[k][ray];
+    if (!any) {
+      flash.place = place;
+      flash.time = time;
+      any = true;
+    }
+    flash.apart = std::max(flash.apart, glm::length(place - flash.place) + std::abs(time - flash.time));
+    if (lambda == 0.0) break;
+  }
+  return flash;
+}
+
+PassingBall passing(const void* set, int index, std::uint64_t rays, const RaySheet& sheet, double lambda) {
+  const PlacedSurface& surface = static_cast<const PlacedSurface*>(set)[index];
+  const Vec3 at = surface.position();
+  LightFlash flash = flash_of(sheet, rays, lambda);
+  flash.place -= at;
+  const MatterMotion& motion = *surface.shape.motion;
+  const Passing ball =
+      lambda == 0.0 ? passing_seen_from(motion, flash.place, flash.time) : passing_lit_from(motion, flash);
+  PassingBall result{{}, {}, ball.time, ball.radius};
+  for (int k = 0; k < 3; ++k) {
+    result.centre[k] = at[k] + ball.centre[k];
+    result.velocity[k] = ball.velocity[k];
+  }
+  return result;
+}
+
 void put(const SurfacePoint& point, int ray, SheetPoints& out) {
   for (int k = 0; k < 3; ++k) {
     out.position[k][ray] = point.position[k];
@@ -116,6 +154,13 @@ void points_by_lines(const PlacedSurface& surface, const Near& near, const Sheet
   }
 }
 
+/// Whether lanes know all of the points of something that moves.
+bool has_point_of_lanes(const Shape& shape, bool textured) {
+  if (shape.motion->carriage() != nullptr) return true;
+  return shape.kind == ShapeKind::travelling_ball && !travelling_ball_turns(shape) &&
+         !shape.motion->counts_time() && !textured;
+}
+
 }  // namespace
 
 WalkSurfaces SurfaceSet::walk_surfaces(Among among, double first_number) const {
@@ -128,7 +173,8 @@ WalkSurfaces SurfaceSet::walk_surfaces(Among among, double first_number) const {
           .first_who = first_number,
           .set = surfaces_.data(),
           .nearest_of = nearest_of,
-          .blocked_by = blocked_by};
+          .blocked_by = blocked_by,
+          .passing = passing};
 }
 
 void SurfaceSet::nearest(const RaySheet& sheet, std::uint64_t rays, double first_number,
@@ -143,23 +189,27 @@ std::uint64_t SurfaceSet::blocked(const RaySheet& sheet, std::uint64_t rays, dou
                {lambda_max, own == nullptr ? nullptr : *own});
 }
 
-void SurfaceSet::points(const RaySheet& sheet, int surface, int first, int last, const SheetHits& hits,
+void SurfaceSet::points(const RaySheet& given, int surface, int first, int last, const SheetHits& hits,
                         bool with_texture_coordinates, SheetPoints& points) const {
   const PlacedSurface& placed = at(surface);
+  RaySheet along;
+  if (placed.lanes.is_carried) go_along<Lanes<2>>(placed.lanes, given, along);
+  const RaySheet& sheet = placed.lanes.is_carried ? along : given;
   const std::uint64_t all = (last < 64 ? std::uint64_t{1} << last : 0) - (std::uint64_t{1} << first);
   const auto texture = methods(placed.shape).texture;
+  // What moves along its own surface is asked for its motion point by point.
+  const bool singly = placed.shape.presence != nullptr ||
+                      (placed.shape.motion && !has_point_of_lanes(placed.shape, with_texture_coordinates));
   if (texture == nullptr) {
     points_by_lines(placed, Near(placed, sheet, all), hits, with_texture_coordinates, points);
     return;
   }
   double local[3][sheet_size];
-  // What moves along its own surface is asked for its motion point by point.
-  const bool turns = placed.shape.motion != nullptr || placed.shape.presence != nullptr;
-  std::uint64_t left = turns ? all
-                             : surface_kernels(sheet.instructions)
-                                   .points(placed.lanes, sheet, first, last, hits, points,
-                                           with_texture_coordinates ? local : nullptr);
-  for (int i = first; i < last && with_texture_coordinates && !turns; ++i) {
+  std::uint64_t left = singly ? all
+                              : surface_kernels(sheet.instructions)
+                                    .points(placed.lanes, sheet, first, last, hits, points,
+                                            with_texture_coordinates ? local : nullptr);
+  for (int i = first; i < last && with_texture_coordinates && !singly; ++i) {
     LocalPoint point{.position = {local[0][i], local[1][i], local[2][i]}};
     texture(placed.shape, hits.part_of(i), point);
     points.u[i] = point.u;
@@ -167,11 +217,11 @@ void SurfaceSet::points(const RaySheet& sheet, int surface, int first, int last,
   }
   for (; left != 0; left &= left - 1) {
     const int i = __builtin_ctzll(left);
-    const int from = sheet.one_origin ? 0 : i;
-    const Vec3 origin{sheet.origin[0][from], sheet.origin[1][from], sheet.origin[2][from]};
-    const Vec3 direction{sheet.direction[0][i], sheet.direction[1][i], sheet.direction[2][i]};
-    const RayClock clock{sheet.start_time[from], sheet.time_rate[i]};
-    const Hit hit = turns
+    const int from = given.one_origin ? 0 : i;
+    const Vec3 origin{given.origin[0][from], given.origin[1][from], given.origin[2][from]};
+    const Vec3 direction{given.direction[0][i], given.direction[1][i], given.direction[2][i]};
+    const RayClock clock{given.start_time[from], given.time_rate[i]};
+    const Hit hit = singly
                         ? Hit{hits.lambda[i], surface, hits.part_of(i), hits.is_unresolved(i), hits.along[i]}
                         : Hit{hits.lambda[i], surface};
     put(resolve(hit, origin, direction, clock), i, points);

@@ -1,6 +1,6 @@
 // Which of a frame's surfaces up to 64 rays meet first, or whether they meet any: a template over the number
 // of lanes, the same bits for any.
-//
+// Longer than 400 lines: one template, whose questions share its ways of looking at rays and surfaces.
 // The rays go down the tree of boxes (hierarchy.h) together, as a pyramid around all of them: which children
 // that meets is asked of eight boxes at once. At a surface each register of rays is asked whether it may meet
 // the bounding sphere, and then solves the closed form. Formulas, solids and tori are asked about all those
@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "backlight/surface/ray_sheet.h"
-#include "closed_forms.h"
+#include "forms.h"
 #include "hierarchy.h"
 #include "pyramid.h"
 
@@ -30,6 +30,9 @@ struct WalkSurfaces {
                      SheetHits&);
   std::uint64_t (*blocked_by)(const void* set, int surface, std::uint64_t rays, const RaySheet&,
                               double lambda_max);
+  /// What the rays whose bits are set can meet of a travelling ball, if they are light: to where they are at
+  /// λ = 0, which is one event, or from where they are at another λ.
+  PassingBall (*passing)(const void* set, int surface, std::uint64_t rays, const RaySheet&, double lambda);
 };
 
 /// What is asked about shadow rays.
@@ -214,7 +217,33 @@ class Walk : TreeWalk<N> {
 
   static bool nearest_of(const WalkSurfaces& s, int index, const RaySheet& rays, std::uint64_t active,
                          SheetHits& hits) {
+    if (!s.surfaces[index].lanes.is_carried) return nearest_at_rest(s, index, rays, active, hits);
+    RaySheet along;
+    go_along<V>(s.surfaces[index].lanes, rays, along);
+    return nearest_at_rest(s, index, along, active, hits);
+  }
+
+  /// Of the rays those that pass near a travelling ball, where that is clear at once.
+  static std::uint64_t near_traveller(const WalkSurfaces& s, int index, const RaySheet& rays,
+                                      std::uint64_t active, double lambda) {
+    const PassingBall ball = s.passing(s.set, index, active, rays, lambda);
+    std::uint64_t met = 0;
+    for (int i = 0; i < rays.padded; i += N) {
+      const unsigned open = lanes_of(active, i);
+      if (open == 0) continue;
+      const LaneRay<V> ray{origin_of(rays, i), load3<V>(rays.direction, i)};
+      const unsigned near = may_meet(ball, ray, start_of(rays, i), V::load(rays.time_rate + i));
+      met |= static_cast<std::uint64_t>(open & near) << i;
+    }
+    return met;
+  }
+
+  static bool nearest_at_rest(const WalkSurfaces& s, int index, const RaySheet& rays, std::uint64_t asked,
+                              SheetHits& hits) {
     const LaneSurface& surface = s.surfaces[index].lanes;
+    const bool narrows = surface.kind == ShapeKind::travelling_ball && rays.one_origin && rays.padded > 8;
+    const std::uint64_t active = narrows ? near_traveller(s, index, rays, asked, 0.0) : asked;
+    if (active == 0) return false;
     const double who = s.first_who + index;
     bool nearer = false;
     const auto use = [&](auto form) __attribute__((always_inline)) {
@@ -234,9 +263,16 @@ class Walk : TreeWalk<N> {
 
   /// The first crossing at λ > 0; else a λ that is not.
   template <class Form>
-  static BACKLIGHT_LANES First first_crossing(const LaneSurface& surface, const LaneRay<V>& ray) {
+  static BACKLIGHT_LANES First first_crossing(const LaneSurface& surface, const RaySheet& rays, int i,
+                                              unsigned wanted) {
+    const LaneRay<V> ray{origin_of(rays, i), load3<V>(rays.direction, i)};
     if constexpr (is_plane<Form>) {
       return {plane_lambda(surface, ray), V(__builtin_nan("")), V(0.0)};
+    } else if constexpr (Form::travels) {
+      const LaneLine<V> line = lane_line(surface, ray);
+      BallSearch<V> search(ball_of(surface), line, clock_of(rays, i, line));
+      const V along = search.first(line.at_lambda(V(0.0)), mask_of_bits<N>(wanted));
+      return {line.lambda(along), along, V(0.0)};
     } else {
       const LaneLine<V> line = lane_line(surface, ray);
       const LaneCrossings<V> found = Form::crossings(surface.values, line);
@@ -247,15 +283,25 @@ class Walk : TreeWalk<N> {
     }
   }
 
+  static BACKLIGHT_LANES V start_of(const RaySheet& rays, int i) {
+    return rays.one_origin ? V(rays.start_time[0]) : V::load(rays.start_time + i);
+  }
+
+  static BACKLIGHT_LANES LaneClock<V> clock_of(const RaySheet& rays, int i, const LaneLine<V>& line) {
+    const V rate = V::load(rays.time_rate + i);
+    return {start_of(rays, i) + (line.lambda_centre + line.lambda_shift) * rate,
+            line.lambda_per_length * rate};
+  }
+
   template <class Form>
   static BACKLIGHT_LANES bool nearest_by(const LaneSurface& surface, double who, bool is_lone,
                                          const RaySheet& rays, std::uint64_t active, SheetHits& hits) {
     Sight<Form::is_boxed> sight(surface, is_lone, rays, infinity);
     bool any = false;
     for (int i = 0; i < rays.padded; i += N) {
-      const unsigned open = lanes_of(active, i);
-      if (open == 0 || (open & sight.lanes(rays, i)) == 0) continue;
-      const First first = first_crossing<Form>(surface, {origin_of(rays, i), load3<V>(rays.direction, i)});
+      const unsigned open = lanes_of(active, i), seen = open == 0 ? 0 : open & sight.lanes(rays, i);
+      if (seen == 0) continue;
+      const First first = first_crossing<Form>(surface, rays, i, seen);
       const V before = V::load(hits.lambda + i), whose = V::load(hits.who + i);
       const Mask nearer =
           (first.lambda > V(0.0)) & ((first.lambda < before) | ((first.lambda == before) & (V(who) < whose)));
@@ -273,6 +319,19 @@ class Walk : TreeWalk<N> {
                                   std::uint64_t active, const ShadowQuestion& question) {
     const LaneSurface& surface = s.surfaces[index].lanes;
     if (!surface.casts_shadow) return 0;
+    if (!surface.is_carried) return blocked_at_rest(s, index, rays, active, question);
+    RaySheet along;
+    go_along<V>(surface, rays, along);
+    return blocked_at_rest(s, index, along, active, question);
+  }
+
+  static std::uint64_t blocked_at_rest(const WalkSurfaces& s, int index, const RaySheet& rays,
+                                       std::uint64_t asked, const ShadowQuestion& question) {
+    const LaneSurface& surface = s.surfaces[index].lanes;
+    const double end = question.lambda_max;
+    const bool narrows = surface.kind == ShapeKind::travelling_ball && rays.padded > 8 && end < infinity;
+    const std::uint64_t active = narrows ? near_traveller(s, index, rays, asked, end) : asked;
+    if (active == 0) return 0;
     const double who = s.first_who + index;
     std::uint64_t blocked = 0;
     const auto use = [&](auto form) __attribute__((always_inline)) {
@@ -292,9 +351,9 @@ class Walk : TreeWalk<N> {
     for (int i = 0; i < rays.padded; i += N) {
       unsigned open = lanes_of(active, i);
       if (open != 0 && question.own != nullptr) open &= ~bits(V::load(question.own + i) == V(who));
-      if (open == 0 || (open & sight.lanes(rays, i)) == 0) continue;
-      const V lambda =
-          first_crossing<Form>(surface, {origin_of(rays, i), load3<V>(rays.direction, i)}).lambda;
+      const unsigned seen = open == 0 ? 0 : open & sight.lanes(rays, i);
+      if (seen == 0) continue;
+      const V lambda = first_crossing<Form>(surface, rays, i, seen).lambda;
       const unsigned met = bits((lambda > V(0.0)) & (lambda < V(question.lambda_max)));
       all |= static_cast<std::uint64_t>(met & open) << i;
     }
@@ -327,8 +386,24 @@ class Walk : TreeWalk<N> {
         const Mask sure = ~(line.direction.y == V(0.0)) & (off < V(infinity));
         left |= static_cast<std::uint64_t>(lanes & ~bits(sure)) << i;
       }
-      const LaneLocalPoint<V> point = Form::point(surface.values, line.at(along), V::load(hits.part + i));
-      const LanePoint<V> placed = in_rest_frame(surface, point, Form::unit_gradient);
+      LaneLocalPoint<V> point;
+      if constexpr (Form::travels) {
+        const TravellingPoint<V> found = point_of(ball_of(surface), line, clock_of(rays, i, line), along);
+        point = found.point;
+        put(lanes, found.velocity, out.velocity, i);
+        put(lanes, V(0.0), out.own_time + i);
+      } else {
+        point = Form::point(surface.values, line.at(along), V::load(hits.part + i));
+      }
+      LanePoint<V> placed = in_rest_frame(surface, point, Form::unit_gradient);
+      if (surface.is_carried) {
+        const LaneClock<V> clock = clock_of(rays, i, line);
+        const CarriedPlace<V> place = carried(surface, placed, clock.start + along * clock.rate);
+        placed.position = place.position;
+        placed.error_bound = place.error_bound;
+        put(lanes, V3(surface.path->velocity), out.velocity, i);
+        put(lanes, place.own_time, out.own_time + i);
+      }
       if (local != nullptr) put(lanes, point.position, local, i);
       put(lanes, placed.position, out.position, i);
       put(lanes, placed.normal, out.normal, i);

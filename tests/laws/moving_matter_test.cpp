@@ -162,6 +162,19 @@ TEST_P(ConstantVelocity, IsTheInertialBodyStretchedAlongTheMotion) {
 
 INSTANTIATE_TEST_SUITE_P(Speeds, ConstantVelocity, testing::Values(0.01, 0.3, 0.7, 0.95, 0.999));
 
+// What goes straight on keeps its form, and is searched as a formula where that is hidden from the program.
+TEST(MovingMatter, GoesStraightOnByItsFormAndByAFormulaAlike) {
+  const Oblique motion{0.8};
+  const std::string known = on_paths(motion);
+  std::string hidden = known;
+  for (std::size_t at = 0; (at = hidden.find(")*t\"", at)) != std::string::npos;)
+    hidden.insert(at += 3, " + 1e-300*sqrt(1 + t^2)");
+  for (const char* camera : {still_camera, moving_camera}) {
+    const std::string rest = stage(film(64, 48)) + camera;
+    expect_same(match(render_text(rest + known), render_text(rest + hidden)), camera);
+  }
+}
+
 struct Way {
   const char* name;
   const char* more;

@@ -67,11 +67,18 @@ struct Course {
     std::string position, rotate;
     for (int i = 0; i < 3; ++i) {
       const char* comma = i == 0 ? "\"" : ", \"";
-      position += comma + number(start[i]) + " + " + number(way[i]) + "*t + " + number(bend[i]) +
-                  "*sqrt(1 + t^2) + " + number(cosine[i]) + "*cos(" + number(rate) + "*t) + " +
-                  number(sine[i]) + "*sin(" + number(rate) + "*t)\"";
-      rotate += comma + number(angles[i]) + " + " + number(turn[i]) + "*t + " + number(swing[i]) + "*sin(" +
-                number(beat) + "*t)\"";
+      position += comma + number(start[i]) + " + " + number(way[i]) + "*t";
+      if (bend != Vec3{0.0}) position += " + " + number(bend[i]) + "*sqrt(1 + t^2)";
+      if (cosine != Vec3{0.0}) {
+        position += " + " + number(cosine[i]) + "*cos(" + number(rate) + "*t) + " + number(sine[i]) +
+                    "*sin(" + number(rate) + "*t)";
+      }
+      position += "\"";
+      rotate += comma + number(angles[i]);
+      if (turn != Vec3{0.0}) {
+        rotate += " + " + number(turn[i]) + "*t + " + number(swing[i]) + "*sin(" + number(beat) + "*t)";
+      }
+      rotate += "\"";
     }
     return std::string("[camera]\nposition = [0, 0, -9]\n[[object]]\n") +
            shapes[static_cast<std::size_t>(body)] + "position = [" + position + "]\n" +
@@ -126,15 +133,17 @@ struct Course {
 Course course(Numbers& numbers) {
   Course c;
   c.body = static_cast<Body>(static_cast<int>(numbers.between(0.0, 4.0)));
-  const double turning = c.body == Body::sphere ? 0.0 : numbers.between(0.0, 0.5);
+  // Some go straight on, and are searched otherwise.
+  const bool straight = numbers.between(0.0, 1.0) < 0.2;
+  const double turning = c.body == Body::sphere || straight ? 0.0 : numbers.between(0.0, 0.5);
   double left = numbers.between(0.1, 0.95) - turning;
   c.start = numbers.point(1.0);
-  if (numbers.between(0.0, 1.0) < 0.4) {
+  if (straight || numbers.between(0.0, 1.0) < 0.4) {
     const double part = left * numbers.between(0.0, 1.0);
     c.way = part * numbers.direction();
     left -= part;
   }
-  if (numbers.between(0.0, 1.0) < 0.3) {
+  if (!straight && numbers.between(0.0, 1.0) < 0.3) {
     const double part = left * numbers.between(0.0, 1.0);
     c.bend = part * numbers.direction();
     left -= part;
@@ -144,6 +153,7 @@ Course course(Numbers& numbers) {
   c.cosine = orbit * numbers.direction();
   const Vec3 other = numbers.direction();
   c.sine = orbit * glm::normalize(other - glm::dot(other, c.cosine) / (orbit * orbit) * c.cosine);
+  if (straight) c.cosine = c.sine = Vec3{0.0};
   // Three angles, each about an axis from which the body reaches no farther than 0.56; in degrees.
   const double degrees = turning / (3.0 * 0.56) * 57.29;
   c.angles = numbers.point(180.0);

@@ -47,10 +47,19 @@ class MatterMotion {
 
   /// `body_shape`: whose texture coordinates the body points have.
   MatterMotion(Body body, const Shape& body_shape, std::optional<Ball> ball, Time time);
+  /// Of matter that goes straight on with the surface's local coordinates, whose origin is at velocity · time
+  /// from the surface's position: what is said of places is said of body points then. `velocity`: of the
+  /// frame, in its axes; `radius`: of a ball about the origin that holds the surface.
+  MatterMotion(const Vec3& velocity, double radius, Time time);
   /// Of a flow of matter, told by its velocity in local lengths for a second.
   MatterMotion(Map velocity, Time time);
+  MatterMotion(const MatterMotion&) = delete;
+  MatterMotion& operator=(const MatterMotion&) = delete;
 
   [[nodiscard]] const std::optional<Ball>& ball() const { return ball_; }
+
+  /// With which velocity in its frame the local coordinates go straight on; null: they rest in it.
+  [[nodiscard]] const Vec3* carriage() const { return carriage_ ? &*carriage_ : nullptr; }
 
   /// Of whose points it tells; null: of none.
   [[nodiscard]] const Shape* body_shape() const { return body_ ? &body_shape_ : nullptr; }
@@ -76,6 +85,11 @@ class MatterMotion {
   /// Whether near_centre() and strays() take little time, and the centre's acceleration is known.
   [[nodiscard]] bool is_quick() const { return waves_.has_value(); }
   [[nodiscard]] double most_acceleration() const { return waves_->most_acceleration(); }
+  /// What near_centre() is computed from; null: it is not quick.
+  [[nodiscard]] const LanePath* path() const { return waves_ ? &path_ : nullptr; }
+  /// How far along each axis anything of the ball gets from the origin, ever; infinite where there are no
+  /// bounds. Of what is quick.
+  [[nodiscard]] Vec3 farthest() const;
   /// A bound on how far the centre is from where it would be at this velocity from `time` on, for as long as
   /// `half_time` before and after.
   [[nodiscard]] double strays(const Vec3& velocity, double time, double half_time) const;
@@ -88,8 +102,10 @@ class MatterMotion {
   std::optional<Body> body_;
   Shape body_shape_;
   std::optional<Map> velocity_;
+  std::optional<Vec3> carriage_;
   std::optional<Ball> ball_;
   std::optional<WavePath> waves_;  ///< the ball's path, if it is such
+  LanePath path_;                  ///< the same
   Time time_;
 };
 

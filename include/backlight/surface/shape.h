@@ -30,7 +30,8 @@ enum class ShapeKind : std::uint8_t {
   quadric,
   csg,
   implicit,
-  mesh
+  mesh,
+  travelling_ball
 };
 
 /// When a surface is there: where the formula is positive, of its matter's own time in seconds.
@@ -99,6 +100,10 @@ Shape implicit(std::shared_ptr<const ImplicitFormula> f, Vec3 low, Vec3 high);
 /// whether the points' members are the mesh's own, or all 0.
 Shape mesh(std::shared_ptr<const Mesh> mesh, bool has_members = false);
 
+/// A ball of this radius whose centre goes along the path of `motion`'s ball, which is_quick(). `turns`: its
+/// matter has other velocities than the centre. Texture: of the motion's body points.
+Shape travelling_ball(double radius, bool turns, std::shared_ptr<const MatterMotion> motion);
+
 /// Whether light is reckoned by normals that are interpolated, and not the surface's own (SurfacePoint).
 bool is_smooth(const Shape& shape);
 
@@ -117,13 +122,15 @@ enum class RootFinder : std::uint8_t {
   polynomial,   ///< a formula that is a polynomial: its coefficients along the ray, Bernstein's form
   affine,       ///< a formula: reduced affine forms, bounds on the slope where a root is
   triangles,    ///< of a mesh, by a watertight test
+  taylor,       ///< a ball on a path: bounds by Taylor's sums of its path
   solid         ///< the events of the parts of a solid, each found in its own way, in their order
 };
 
 /// Which of them the shape's camera and shadow rays take.
 RootFinder root_finder(const Shape& shape);
 
-/// "closed form", "quartic", "interval + derivative", "polynomial", "reduced affine", "triangles", "CSG".
+/// "closed form", "quartic", "interval + derivative", "polynomial", "reduced affine", "triangles", "Taylor",
+/// "CSG".
 std::string_view name(RootFinder finder);
 
 /// The name of the shape's root finder; of a solid those of its parts too, each once: "CSG of closed form and

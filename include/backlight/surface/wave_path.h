@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,19 @@
 #include "backlight/expression/expression.h"
 
 namespace backlight {
+
+/// A path as plain numbers, for lanes of times (src/surface/lane_path.h).
+struct LanePath {
+  struct Turn {
+    double rate;
+    double cosine[3], sine[3];
+  };
+  double start[3]{}, velocity[3]{};
+  const Turn* turns = nullptr;
+  int count = 0;
+  double speed = 0.0, acceleration = 0.0, jerk = 0.0;  ///< at no time more
+  double doubt = 0.0, doubt_rate = 0.0;                ///< WavePath::doubt()
+};
 
 /// start + velocity t + Σ (cosine cos(rate t) + sine sin(rate t)): each of the sum goes along an ellipse.
 /// Docs/physics.md equation (28a).
@@ -18,6 +32,9 @@ class WavePath {
   /// where they are not such sums of t alone.
   static std::optional<WavePath> of(const std::array<Expression, 3>& formulas, double per_time);
 
+  /// Through the origin at time 0.
+  static WavePath straight(const Vec3& velocity);
+
   struct Motion {
     Vec3 place;
     Vec3 velocity;
@@ -25,28 +42,32 @@ class WavePath {
   [[nodiscard]] Motion at(double time) const;
 
   /// How far what at() and the formulas say may be apart for their rounding.
-  [[nodiscard]] double doubt(double time) const { return doubt_ + doubt_rate_ * std::abs(time); }
+  [[nodiscard]] double doubt(double time) const {
+    return numbers_.doubt + numbers_.doubt_rate * std::abs(time);
+  }
 
   // At no time more.
-  [[nodiscard]] double most_speed() const { return most_speed_; }
-  [[nodiscard]] double most_acceleration() const { return most_acceleration_; }
+  [[nodiscard]] double most_speed() const { return numbers_.speed; }
+  [[nodiscard]] double most_acceleration() const { return numbers_.acceleration; }
+  /// How far from start() + velocity() t it goes along each axis.
+  [[nodiscard]] const Vec3& farthest() const { return farthest_; }
 
   [[nodiscard]] bool is_straight() const { return turns_.empty(); }
-  [[nodiscard]] const Vec3& start() const { return start_; }
-  [[nodiscard]] const Vec3& velocity() const { return velocity_; }
+  [[nodiscard]] bool is_still() const { return turns_.empty() && velocity() == Vec3{0.0}; }
+  [[nodiscard]] Vec3 start() const { return {numbers_.start[0], numbers_.start[1], numbers_.start[2]}; }
+  [[nodiscard]] Vec3 velocity() const {
+    return {numbers_.velocity[0], numbers_.velocity[1], numbers_.velocity[2]};
+  }
+
+  /// Good for as long as this path is neither moved nor destroyed.
+  [[nodiscard]] LanePath lanes() const;
 
  private:
-  struct Turn {
-    double rate;
-    Vec3 cosine{0.0}, sine{0.0};
-  };
-
   void find_bounds();
 
-  Vec3 start_{0.0}, velocity_{0.0};
-  std::vector<Turn> turns_;
-  double most_speed_ = 0.0, most_acceleration_ = 0.0;
-  double doubt_ = 0.0, doubt_rate_ = 0.0;
+  LanePath numbers_;  ///< but for the turns
+  std::vector<LanePath::Turn> turns_;
+  Vec3 farthest_{0.0};
 };
 
 }  // namespace backlight

@@ -13,8 +13,8 @@
 #include <string>
 #include <variant>
 
-#include "../../../src/expression/lane_waves.h"
 #include "backlight/base/instruction_sets.h"
+#include "backlight/base/lane_waves.h"
 #include "backlight/expression/affine.h"
 #include "backlight/expression/enclosure.h"
 #include "backlight/expression/expression.h"
