@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace backlight {
 namespace {
@@ -86,6 +87,7 @@ enum class Way { arrives, leaves };
 
 struct Moments {
   double first, last;
+  std::optional<MatterMotion::Centre> centre{};  ///< where they are the same, and that is known
 };
 
 /// Between these the centre is where light of the event meets it: the root of (29), which they enclose unless
@@ -104,7 +106,7 @@ Moments meeting_with_light(const MatterMotion& motion, const Vec3& place, double
     const Vec3 to = centre.place - place;
     const double length = glm::length(to);
     const double over = sign * (at - time) - length;  // the way of the light, over what it has to go
-    if (!(std::abs(over) > enough)) return {at, at};
+    if (!(std::abs(over) > enough)) return {at, at, centre};
     (sign * over > 0.0 ? high : low) = at;
     const double toward = length > 0.0 ? glm::dot(to, centre.velocity) / length : 0.0;
     const double next = at - over / (sign - toward);
@@ -140,9 +142,10 @@ double half_time_about(const MatterMotion& motion, const MatterMotion::Centre& c
 Passing passing_of_light(const MatterMotion& motion, const Vec3& place, double time, Way way, double apart,
                          double until = infinite) {
   const MatterMotion::Ball& ball = *motion.ball();
-  const double doubt = 0.02 * ball.radius;
+  const double doubt = 0.03 * (ball.radius + apart);
   const double reach =
       ball.radius + apart + 2.0 * (doubt + motion.near_centre_doubt(time)) + 1e-12 * std::abs(time);
+  double early = time - reach;
   if (motion.is_quick()) {
     // From where the waves are about.
     const LanePath& path = *motion.path();
@@ -150,13 +153,15 @@ Passing passing_of_light(const MatterMotion& motion, const Vec3& place, double t
     for (int k = 0; k < 3; ++k) about[k] += time * path.velocity[k];
     const double way_there = glm::length(about - place);
     const double guess = way == Way::arrives ? time - way_there : time + way_there;
-    const double middle = meeting_with_light(motion, place, time, way, doubt, guess).first;
-    const MatterMotion::Centre centre = motion.near_centre(middle);
+    const Moments meeting = meeting_with_light(motion, place, time, way, doubt, guess);
+    const double middle = meeting.first;
+    const MatterMotion::Centre centre = meeting.centre ? *meeting.centre : motion.near_centre(middle);
     const double half_time = half_time_about(motion, centre, place, way, reach);
     if (half_time < infinite && middle - half_time > ball.begins && middle + half_time < until)
       return passing_at(motion, centre, middle, half_time * (1.0 + 1e-9) + 1e-12 * std::abs(middle));
+    early = middle - reach;
   }
-  const double first = meeting_with_light(motion, place, time - reach, way, doubt, time - reach).first;
+  const double first = meeting_with_light(motion, place, time - reach, way, doubt, early).first;
   const double soon = first + 2.0 * reach;
   const double last = std::min(until, meeting_with_light(motion, place, time + reach, way, doubt, soon).last);
   return passing_between(motion, first, last);
