@@ -10,13 +10,17 @@
 namespace backlight {
 namespace {
 
-MeshView view_of(const Mesh& mesh) {
+MeshView view_of(const Shape& shape) {
   static_assert(sizeof(Vec3) == sizeof(double[3]));
-  MeshView view{mesh.nodes().data(),
-                reinterpret_cast<const double(*)[3]>(mesh.data().places.data()),
-                reinterpret_cast<const std::uint32_t(*)[3]>(mesh.data().triangles.data()),
-                {},
-                {}};
+  const Mesh& mesh = *shape.mesh;
+  const MeshData& data = mesh.data();
+  MeshView view{.nodes = mesh.nodes().data(),
+                .places = reinterpret_cast<const double(*)[3]>(data.places.data()),
+                .triangles = reinterpret_cast<const std::uint32_t(*)[3]>(data.triangles.data()),
+                .radius = mesh.radius()};
+  if (!data.normals.empty()) view.normals = reinterpret_cast<const double(*)[3]>(data.normals.data());
+  if (!data.texture.empty()) view.texture = reinterpret_cast<const double(*)[2]>(data.texture.data());
+  if (shape.values[0] == 1.0 && !data.members.empty()) view.members = data.members.data();
   for (int k = 0; k < 3; ++k) {
     view.low[k] = mesh.low()[k];
     view.high[k] = mesh.high()[k];
@@ -45,7 +49,7 @@ double half_extent(const Shape& shape, const Extent& e) {
 void first_crossings_of(const Shape& shape, const LocalLines& lines, double lambda_min,
                         std::span<FirstOnLine> results) {
   alignas(64) double t[LocalLines::most], triangle[LocalLines::most];
-  surface_kernels().mesh_crossings({view_of(*shape.mesh), lambda_min}, lines, t, triangle);
+  surface_kernels().mesh_crossings({view_of(shape), lambda_min}, lines, t, triangle);
   for (std::size_t k = 0; k < lines.count; ++k) {
     results[k] = {};
     if (t[k] < infinite) results[k] = {t[k], false, static_cast<int>(triangle[k])};
@@ -55,7 +59,7 @@ void first_crossings_of(const Shape& shape, const LocalLines& lines, double lamb
 void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, double lambda_max,
             std::span<bool> results) {
   alignas(64) double t[LocalLines::most], triangle[LocalLines::most];
-  surface_kernels().mesh_crossings({view_of(*shape.mesh), lambda_min, true, lambda_max}, lines, t, triangle);
+  surface_kernels().mesh_crossings({view_of(shape), lambda_min, true, lambda_max}, lines, t, triangle);
   for (std::size_t k = 0; k < lines.count; ++k) results[k] = t[k] < infinite;
 }
 
@@ -63,7 +67,7 @@ void begin_walk(const Shape& shape, const LocalLine& line, double /*from*/, Soli
   LocalLines one;
   one.add(line);
   std::vector<Crossing> found;
-  MeshWalk<1>::all(view_of(*shape.mesh), one, [&](double t, int triangle) {
+  MeshWalk<1>::all(view_of(shape), one, [&](double t, int triangle) {
     found.push_back({t, triangle, false});
   });
   std::ranges::sort(found, [](const Crossing& a, const Crossing& b) {
@@ -73,35 +77,27 @@ void begin_walk(const Shape& shape, const LocalLine& line, double /*from*/, Soli
 }
 
 LocalPoint point_on(const Shape& shape, const LocalLine& line, const Crossing& crossing) {
-  const MeshData& data = shape.mesh->data();
-  const auto& corner = data.triangles[static_cast<std::size_t>(crossing.part)];
-  const Vec3 weight = vec3(MeshWalk<1>::weights(view_of(*shape.mesh), crossing.part, one_lane(line)));
-  const auto mean = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-    return weight.x * a + weight.y * b + weight.z * c;
-  };
-  const Vec3 &a = data.places[corner[0]], &b = data.places[corner[1]], &c = data.places[corner[2]];
-  LocalPoint point;
-  point.position = a + (weight.y * (b - a) + weight.z * (c - a));
-  const double unit = 1.0 / shape.mesh->radius();  // so that no product over- or underflows
-  point.gradient = glm::cross(unit * (b - a), unit * (c - a));
-  if (!data.normals.empty()) {
-    point.shading = mean(data.normals[corner[0]], data.normals[corner[1]], data.normals[corner[2]]);
-    if (glm::dot(point.shading, point.gradient) < 0.0) point.shading = -point.shading;
-  }
-  if (!data.texture.empty()) {
-    const auto &at = data.texture[corner[0]], &bt = data.texture[corner[1]], &ct = data.texture[corner[2]];
-    point.u = weight.x * at[0] + weight.y * bt[0] + weight.z * ct[0];
-    point.v = weight.x * at[1] + weight.y * bt[1] + weight.z * ct[1];
-    if (!(point.v >= 0.0 && point.v <= 1.0)) point.v -= std::floor(point.v);
-  }
-  if (shape.values[0] == 1.0 && !data.members.empty())
-    point.member = static_cast<int>(data.members[static_cast<std::size_t>(crossing.part)]);
+  const MeshView mesh = view_of(shape);
+  const auto number = static_cast<std::uint32_t>(crossing.part);
+  const MeshPoints<1>::Point found = MeshPoints<1>::at(mesh, {number}, one_lane(line), true);
+  LocalPoint point{.position = vec3(found.position), .gradient = vec3(found.gradient)};
+  if (mesh.normals != nullptr) point.shading = vec3(found.shading);
+  point.u = found.u.v;
+  point.v = found.v.v;
+  if (mesh.members != nullptr) point.member = static_cast<int>(mesh.members[number]);
   return point;
 }
 
 void points_on(const Shape& shape, const LocalLines& lines, std::span<const Crossing> crossings,
                TextureCoordinates /*wanted*/, std::span<LocalPoint> points) {
   for (std::size_t i = 0; i < lines.count; ++i) points[i] = point_on(shape, lines.line(i), crossings[i]);
+}
+
+void sheet_points(const PlacedSurface& surface, const RaySheet& rays, int first, int last,
+                  const SheetHits& hits, TextureCoordinates wanted, SheetPoints& points) {
+  surface_kernels(rays.instructions)
+      .mesh_points(view_of(surface.shape), surface.lanes, rays, first, last, hits,
+                   wanted == TextureCoordinates::wanted, points);
 }
 
 RootFinder finder_of(const Shape& /*shape*/) {
@@ -126,6 +122,7 @@ const ShapeMethods mesh_methods{.kind = ShapeKind::mesh,
                                 .first_crossings = first_crossings_of,
                                 .finder = finder_of,
                                 .points = points_on,
+                                .sheet_points = sheet_points,
                                 .blocks = blocks,
                                 .has_many_parts = true,
                                 .is_smooth = is_smooth_mesh};

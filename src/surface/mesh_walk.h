@@ -1,26 +1,12 @@
-// Where lines cross the triangles of a mesh: a template over the number of lanes, the same bits for any.
-//
-// The test is that of S. Woop, C. Benthin and I. Wald, "Watertight ray/triangle intersection", 2013: the
-// corners, relative to the line, are sheared so that the line is an axis, and the signs of three cross
-// products tell on which side of each edge it passes. Triangles that share an edge compute the same products
-// for it, and rounding is monotonic, so a sign is right for the rounded corners or is 0. Where it is 0 the
-// product is computed with its errors (exact.h), and if it is 0 indeed, the line is taken to pass a little
-// aside, in the same direction for all edges. So a line through an edge or a corner crosses a closed mesh as
-// one next to it does.
+// Where lines cross the triangles of a mesh (mesh_triangle.h), of a tree of them: a template over the number
+// of lanes, the same bits for any.
 #pragma once
 
 #include "local_lines.h"
+#include "mesh_triangle.h"
 #include "pyramid.h"
 
 namespace backlight {
-
-/// A mesh as plain numbers.
-struct MeshView {
-  const WideNode* nodes;
-  const double (*places)[3];
-  const std::uint32_t (*triangles)[3];
-  double low[3], high[3];  ///< its box
-};
 
 struct MeshQuestion {
   MeshView mesh;
@@ -80,17 +66,6 @@ class MeshWalk : TreeWalk<N> {
         return false;
       });
     }
-  }
-
-  /// The weights of a triangle's corners in the point of a crossing; they sum up to 1. Of one lane.
-  static V3 weights(const MeshView& mesh, int number, const LaneLine<V>& line) {
-    const double d[3] = {line.direction.x.v, line.direction.y.v, line.direction.z.v};
-    const double p[3] = {line.point.x.v, line.point.y.v, line.point.z.v};
-    const double x = d[0] < 0.0 ? -d[0] : d[0], y = d[1] < 0.0 ? -d[1] : d[1], z = d[2] < 0.0 ? -d[2] : d[2];
-    const int a = x >= y && x >= z ? 0 : y >= z ? 1 : 2, b = (a + 1) % 3, c = (a + 2) % 3;
-    const Edges e = edges(corners_of(mesh, number), a, b, c, p[a], p[b], p[c], d[b] / d[a], d[c] / d[a]);
-    const V inverse = V(1.0) / (e.u + e.v + e.w);
-    return {e.u * inverse, e.v * inverse, e.w * inverse};
   }
 
  private:
@@ -199,6 +174,13 @@ class MeshWalk : TreeWalk<N> {
     far_[r] = most_of(pick(lanes, way, V(0.0))) * (1.0 + 1e-14) + far_room_[r];
   }
 
+  /// Of all registers.
+  [[nodiscard]] BACKLIGHT_LANES double farthest() const {
+    V most = V::load(far_);
+    for (int r = N; r < used_; r += N) most = larger(most, V::load(far_ + r));
+    return most_of(most);
+  }
+
   /// Which registers a box may be met by.
   BACKLIGHT_LANES std::uint64_t registers_at(const double (&low)[3], const double (&high)[3]) const {
     std::uint64_t met = 0;
@@ -250,7 +232,7 @@ class MeshWalk : TreeWalk<N> {
       nearer = meet(corners, number, __builtin_ctzll(met)) || nearer;
     }
     if (question_.existence_is_enough) return open_ == 0;
-    if (nearer) pyramid_.shorten(rays_, open_, reach_);
+    if (nearer) pyramid_.shorten(farthest());
     return false;
   }
 
@@ -278,52 +260,15 @@ class MeshWalk : TreeWalk<N> {
     return true;
   }
 
-  /// Cross products of the corners as seen along the line, and how far along the axis the corners are.
-  struct Edges {
-    V u, v, w;                 // opposite to each corner
-    V side_u, side_v, side_w;  // their signs; of what is not 0 they are the products themselves
-    V at_a, at_b, at_c;
-  };
-
-  static BACKLIGHT_LANES Edges edges(const Corners& corners, int a, int b, int c, V pa, V pb, V pc, V shear_b,
-                                     V shear_c) {
-    const double *const A = corners.at[0], *const B = corners.at[1], *const C = corners.at[2];
-    Edges e;
-    e.at_a = V(A[a]) - pa;
-    e.at_b = V(B[a]) - pa;
-    e.at_c = V(C[a]) - pa;
-    const V ax = (V(A[b]) - pb) - shear_b * e.at_a, ay = (V(A[c]) - pc) - shear_c * e.at_a;
-    const V bx = (V(B[b]) - pb) - shear_b * e.at_b, by = (V(B[c]) - pc) - shear_c * e.at_b;
-    const V cx = (V(C[b]) - pb) - shear_b * e.at_c, cy = (V(C[c]) - pc) - shear_c * e.at_c;
-    e.u = cx * by - cy * bx;
-    e.v = ax * cy - ay * cx;
-    e.w = bx * ay - by * ax;
-    e.side_u = e.u;
-    e.side_v = e.v;
-    e.side_w = e.w;
-    const V zero(0.0);
-    if (bits((e.u == zero) | (e.v == zero) | (e.w == zero)) != 0) {
-      decide(cx, cy, bx, by, e.u, e.side_u);
-      decide(ax, ay, cx, cy, e.v, e.side_v);
-      decide(bx, by, ax, ay, e.w, e.side_w);
-    }
-    return e;
-  }
-
-  /// Of a cross product p×q that is 0: its value, exact as to its sign, and the sign of what it is for a line
-  /// that passes a little aside.
-  static BACKLIGHT_LANES void decide(V px, V py, V qx, V qy, V& product, V& side) {
-    const V zero(0.0);
-    const Mask unsure = product == zero;
-    product = select(unsure, difference_of_products(px, qy, py, qx), product);
-    const V aside = select(py == qy, qx - px, py - qy);
-    side = select(product == zero, aside, product);
-  }
-
   /// Which lanes of the register cross the triangle, and where.
   BACKLIGHT_LANES Mask crossing(const Corners& corners, int i, V& t) const {
-    const Edges e = edges(corners, a_, b_, c_, V::load(lines_.point[a_] + i), V::load(lines_.point[b_] + i),
-                          V::load(lines_.point[c_] + i), V::load(shear_b_ + i), V::load(shear_c_ + i));
+    const auto corner = [&](const double* at) __attribute__((always_inline)) {
+      return V3(V(at[a_]), V(at[b_]), V(at[c_]));
+    };
+    const TriangleEdges<V> e = triangle_edges(
+        corner(corners.at[0]), corner(corners.at[1]), corner(corners.at[2]),
+        V3(V::load(lines_.point[a_] + i), V::load(lines_.point[b_] + i), V::load(lines_.point[c_] + i)),
+        V::load(shear_b_ + i), V::load(shear_c_ + i));
     const V zero(0.0);
     const Mask inside = ((e.side_u > zero) & (e.side_v > zero) & (e.side_w > zero)) |
                         ((e.side_u < zero) & (e.side_v < zero) & (e.side_w < zero));

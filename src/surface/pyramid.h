@@ -56,6 +56,9 @@ class TreeWalk {
     /// How far along the axis it reaches.
     double far = infinity;
 
+    /// Reaches so far at most, from wherever the rays begin.
+    void shorten(double along_axis) { far = along_axis + reach_room_; }
+
     /// The same once the rays have met something.
     void shorten(const RaySheet& rays, std::uint64_t active, const double* lambda) {
       const V sign(sign_[axis_[0]]);

@@ -10,12 +10,14 @@
 #include <span>
 #include <string>
 
+#include "backlight/surface/ray_sheet.h"
 #include "backlight/surface/shape.h"
 #include "local_lines.h"
 
 namespace backlight {
 
 class SolidWalk;
+struct PlacedSurface;
 
 /// A crossing at line.at(t).
 struct Crossing {
@@ -105,6 +107,10 @@ struct ShapeMethods {
   /// The points of many crossings, each on its own line and as `point` would find it; null: likewise.
   void (*points)(const Shape&, const LocalLines&, std::span<const Crossing>, TextureCoordinates,
                  std::span<LocalPoint>) = nullptr;
+  /// The points of hits `first` to `last` of a sheet, as `points` would find them, straight into the sheet
+  /// from a kernel; null: by `points`.
+  void (*sheet_points)(const PlacedSurface&, const RaySheet&, int first, int last, const SheetHits&,
+                       TextureCoordinates, SheetPoints&) = nullptr;
   /// Whether each of many lines crosses the shape between the two λ, however many are asked together. Null:
   /// that is asked of the first crossings. A shape has it if it has first_crossings.
   void (*blocks)(const Shape&, const LocalLines&, double lambda_min, double lambda_max,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "local_lines.h"
+#include "mesh_points.h"
 #include "mesh_walk.h"
 #include "polynomial_lanes.h"
 #include "torus_lanes.h"
@@ -13,6 +14,7 @@ struct SurfaceKernels {
   void (*local_lines)(const LaneSurface&, LocalLines&);
   void (*torus_roots)(const TorusQuestion&, const LocalLines&, double* roots);
   void (*mesh_crossings)(const MeshQuestion&, const LocalLines&, double* t, double* triangle);
+  decltype(&MeshPoints<1>::run) mesh_points;
   PolynomialKernels (*polynomials)(int degree);
   decltype(&Walk<1>::nearest) nearest;
   decltype(&Walk<1>::blocked) blocked;
@@ -25,6 +27,7 @@ SurfaceKernels surface_kernels_of() {
   return {.local_lines = bring_lines<V>,
           .torus_roots = TorusLanes<V>::run,
           .mesh_crossings = MeshWalk<V::width>::run,
+          .mesh_points = MeshPoints<V::width>::run,
           .polynomials = polynomial_kernels_of<V>,
           .nearest = W::nearest,
           .blocked = W::blocked,

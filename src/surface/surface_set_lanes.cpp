@@ -1,6 +1,8 @@
 // The questions of many rays at once, of SurfaceSet.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "backlight/surface/matter_motion.h"
 #include "backlight/surface/surface_set.h"
@@ -19,12 +21,33 @@ struct Near {
   int ray_of[sheet_size];
 
   Near(const PlacedSurface& surface, const RaySheet& sheet, std::uint64_t rays) {
-    for (; rays != 0; rays &= rays - 1) add(sheet, __builtin_ctzll(rays));
-    for (std::size_t i = lines.count; i < lines.padded(); ++i) put(sheet, ray_of[lines.count - 1], i);
+    if ((rays & (rays + 1)) == 0) {
+      take_first(sheet, static_cast<std::size_t>(std::popcount(rays)));
+    } else {
+      for (; rays != 0; rays &= rays - 1) add(sheet, __builtin_ctzll(rays));
+      for (std::size_t i = lines.count; i < lines.padded(); ++i) put(sheet, ray_of[lines.count - 1], i);
+    }
     surface_kernels(sheet.instructions).local_lines(surface.lanes, lines);
   }
 
  private:
+  // As add() would of each: whole rows.
+  void take_first(const RaySheet& sheet, std::size_t count) {
+    lines.count = count;
+    std::iota(ray_of, ray_of + count, 0);
+    const std::size_t padded = lines.padded();
+    const auto take = [&](const double* from, double* to, bool same) {
+      if (same) return std::fill_n(to, padded, *from);
+      std::fill(std::copy_n(from, count, to), to + padded, from[count - 1]);
+      return to + padded;
+    };
+    for (int k = 0; k < 3; ++k) {
+      take(sheet.origin[k], lines.origin[k], sheet.one_origin);
+      take(sheet.direction[k], lines.along[k], false);
+    }
+    take(sheet.start_time, lines.time, sheet.one_origin);
+    take(sheet.time_rate, lines.rate, false);
+  }
   void add(const RaySheet& sheet, int ray) {
     put(sheet, ray, lines.count);
     ray_of[lines.count++] = ray;
@@ -196,7 +219,13 @@ void SurfaceSet::points(const RaySheet& given, int surface, int first, int last,
   if (placed.lanes.is_carried) go_along<Lanes<2>>(placed.lanes, given, along);
   const RaySheet& sheet = placed.lanes.is_carried ? along : given;
   const std::uint64_t all = (last < 64 ? std::uint64_t{1} << last : 0) - (std::uint64_t{1} << first);
-  const auto texture = methods(placed.shape).texture;
+  const ShapeMethods& has = methods(placed.shape);
+  if (has.sheet_points != nullptr && placed.shape.motion == nullptr) {
+    const auto wanted = with_texture_coordinates ? TextureCoordinates::wanted : TextureCoordinates::unwanted;
+    has.sheet_points(placed, sheet, first, last, hits, wanted, points);
+    return;
+  }
+  const auto texture = has.texture;
   // What moves along its own surface is asked for its motion point by point.
   const bool singly = placed.shape.presence != nullptr ||
                       (placed.shape.motion && !has_point_of_lanes(placed.shape, with_texture_coordinates));

@@ -16,19 +16,11 @@ std::string scene(const std::string& camera, const std::string& more = {}) {
   return "[film]\nresolution = [60, 40]\nbounces = 10\n"
          "aovs = [\"Z\", \"doppler\", \"objectId\", \"N\", \"mirror\", \"light\"]\n"
          "[camera]\nposition = [0, 1.4, -6]\ndirection = [0, -0.15, 1]\n" +
-         camera + R"toml(
+         camera + two_lamps + R"toml(
 [background]
 color = [0.2, 0.3, 0.5]
 [frame.passing]
 velocity = [0.3, 0, -0.4]
-[[light]]
-position = [3, 7, -4]
-intensity = 160
-[[light]]
-position = [-5, 6, -2]
-beta = [0.4, 0, 0.2]
-intensity = 90
-color = [1, 0.7, 0.3]
 [[object]]
 shape = "plane"
 position = [0, -1, 0]

@@ -11,17 +11,10 @@ namespace {
 std::string scene(const std::string& film, const std::string& camera, const std::string& more = {}) {
   return "[film]\nresolution = [72, 48]\nbounces = 4\n"
          "aovs = [\"Z\", \"doppler\", \"objectId\", \"N\", \"mirror\", \"emissionTime\"]\n" +
-         film + "\n[camera]\nposition = [0, 1.4, -7]\ndirection = [0, -0.12, 1]\n" + camera + R"toml(
+         film + "\n[camera]\nposition = [0, 1.4, -7]\ndirection = [0, -0.12, 1]\n" + camera + two_lamps +
+         R"toml(
 [background]
 color = [0.2, 0.3, 0.5]
-[[light]]
-position = [3, 7, -4]
-intensity = 160
-[[light]]
-position = [-5, 6, -2]
-beta = [0.4, 0, 0.2]
-intensity = 90
-color = [1, 0.7, 0.3]
 [[object]]
 shape = "plane"
 position = [0, -1, 0]

@@ -5,10 +5,23 @@
 
 #include <bit>
 #include <cstdint>
+#include <string>
 
 #include "backlight/film/image.h"
 
 namespace backlight::test {
+
+/// Tables of a scene: a lamp at rest, and one that flies.
+inline const std::string two_lamps = R"toml(
+[[light]]
+position = [3, 7, -4]
+intensity = 160
+[[light]]
+position = [-5, 6, -2]
+beta = [0.4, 0, 0.2]
+intensity = 90
+color = [1, 0.7, 0.3]
+)toml";
 
 /// In the data window of `part`, in every channel; the first values that differ are told.
 inline void expect_same_bits(const Image& whole, const Image& part) {

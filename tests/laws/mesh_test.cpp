@@ -18,13 +18,7 @@ std::string mesh_keys(const std::string& name, const MeshData& mesh, const std::
 }
 
 SceneModel model() {
-  SceneModel m;
-  m.film = film(64, 48);
-  m.frames = {{"ground", {0, 0, 0}, {}},
-              {"eye", {0.3, 0.05, 0.4}, {0.5, 0.2, 1.5, -8}},
-              {"fair", {0.8, 0, -0.4}, {-3, -1.5, 0.5, 2}},
-              {"lamp", {0.9, 0, 0.9}, {-8, -9, 7, -12}}};
-  m.camera = {"eye", {0, 0, 0}, {0.1, -0.15, 1}, {0, 1, 0}, 0.4};
+  SceneModel m = passing_frames(film(64, 48));
   m.objects = {{"ground",
                 mesh_keys("floor", box_mesh({40, 1, 40}), "material = { color = [0.6, 0.6, 0.5] }"),
                 {0, -1.5, 8},

@@ -123,6 +123,17 @@ void turn(Redescription& result, std::map<std::string, Mat3>& rotation) {
 
 }  // namespace
 
+SceneModel passing_frames(const std::string& film) {
+  SceneModel m;
+  m.film = film;
+  m.frames = {{"ground", {0, 0, 0}, {}},
+              {"eye", {0.3, 0.05, 0.4}, {0.5, 0.2, 1.5, -8}},
+              {"fair", {0.8, 0, -0.4}, {-3, -1.5, 0.5, 2}},
+              {"lamp", {0.9, 0, 0.9}, {-8, -9, 7, -12}}};
+  m.camera = {"eye", {0, 0, 0}, {0.1, -0.15, 1}, {0, 1, 0}, 0.4};
+  return m;
+}
+
 std::string to_toml(const SceneModel& m) {
   std::string s = m.film + m.extra;
   for (const FrameModel& f : m.frames) {

@@ -51,6 +51,9 @@ struct SceneModel {
   std::vector<LightModel> lights;
 };
 
+/// An empty scene of frames that pass one another, "ground", "fair" and "lamp", seen from a fourth, "eye".
+SceneModel passing_frames(const std::string& film);
+
 std::string to_toml(const SceneModel& model);
 
 struct Redescription {
