@@ -18,8 +18,8 @@
 set -euo pipefail
 
 declare -A packages=(
-  [build]="g++ cmake ninja-build pkgconf libopenexr-dev libopenimageio-dev libfontconfig-dev libfreetype-dev fonts-dejavu-core libassimp-dev libtinyobjloader-dev libglm-dev libtomlplusplus-dev libcli11-dev"
-  [test]="libgtest-dev nlohmann-json3-dev chromium ffmpeg openimageio-tools libmpfr-dev libgmp-dev pandoc python3 python3-jsonschema python3-fastjsonschema python3-numpy python3-openimageio mandoc man-db bsdextrautils zsh parallel"
+  [build]="g++ cmake ninja-build pkgconf libopenexr-dev libopenimageio-dev libfontconfig-dev libfreetype-dev fonts-dejavu-core libtinyobjloader-dev nlohmann-json3-dev libglm-dev libtomlplusplus-dev libcli11-dev"
+  [test]="libgtest-dev chromium ffmpeg openimageio-tools libmpfr-dev libgmp-dev pandoc python3 python3-jsonschema python3-fastjsonschema python3-numpy python3-openimageio mandoc man-db bsdextrautils zsh parallel"
   [ci]="clang-14 libclang-rt-14-dev clang-format-14"
   [bench]="libbenchmark-dev libembree-dev libmpfr-dev povray python3 util-linux"
   [docs]="pandoc openimageio-tools python3"

@@ -2,7 +2,6 @@
 #include "model_module.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -18,10 +17,11 @@ namespace {
 using namespace backlight::models;
 
 Read read_file(const std::string& path, bool normals) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return ending == ".obj" ? read_obj(path, normals) : read_by_assimp(path, normals);
+  const std::string ending = lower(std::filesystem::path(path).extension().string());
+  if (ending == ".obj") return read_obj(path, normals);
+  if (ending == ".ply") return read_ply(path, normals);
+  if (ending == ".stl") return read_stl(path);
+  return read_gltf(path, normals);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The C interface of libbacklight_models.so, the only thing that links assimp and has tinyobjloader in it.
-// The library is loaded with dlopen; nothing but plain data crosses.
+// The C interface of libbacklight_models.so, the only thing that has tinyobjloader and a parser of JSON in
+// it. The library is loaded with dlopen; nothing but plain data crosses.
 #pragma once
 
 #include <cstddef>

@@ -85,20 +85,19 @@ void hand_over(const Read& read, const SharedFile& file) {
   texts.push_back(read.missing);
   std::vector<std::uint64_t> lengths;
   for (const std::string_view text : texts) lengths.push_back(text.size());
-  const CornerTable& corners = read.corners;
   const Head head{1,
-                  corners.places.size() / 3,
-                  corners.has_normals ? 1U : 0U,
-                  corners.has_texture ? 1U : 0U,
+                  read.places.size(),
+                  read.normals.empty() ? 0U : 1U,
+                  read.texture.empty() ? 0U : 1U,
                   read.indices.size() / 3,
                   read.materials.size(),
                   read.files.size(),
                   read.left_out,
                   0};
   file.write(&head, sizeof head);
-  file.write(corners.places);
-  if (corners.has_normals) file.write(corners.normals);
-  if (corners.has_texture) file.write(corners.texture);
+  file.write(read.places);
+  file.write(read.normals);
+  file.write(read.texture);
   file.write(colours);
   file.write(lengths);
   file.write(read.indices);
@@ -152,7 +151,7 @@ void fill(const SharedModel& shared, const Head& head, BacklightModel& model, Sh
   model.left_out = head.left_out;
 }
 
-/// Of the processor: some, and one for each megabyte. assimp reads some damaged files for ever.
+/// Of the processor: some, and one for each megabyte.
 rlim_t most_seconds(std::uintmax_t file_size) {
   return 5 + static_cast<rlim_t>(file_size / 1'000'000);
 }
@@ -179,7 +178,7 @@ void limit(std::uintmax_t file_size) {
 #endif
   set(RLIMIT_CPU, most_seconds(file_size));
   set(RLIMIT_CORE, 0);
-  if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, 2);  // what assimp asserts
+  if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, 2);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGINT, SIGHUP, SIGXCPU})
     std::signal(signal, SIG_DFL);
 }

@@ -17,11 +17,10 @@ struct Library {
   bool in_one_file;
 };
 
-constexpr std::array<Library, 11> libraries{{{"GLM", "glm/", false},
+constexpr std::array<Library, 10> libraries{{{"GLM", "glm/", false},
                                              {"OpenEXR", "OpenEXR/", false},
                                              {"OpenEXR", "Imath/", false},
                                              {"OpenImageIO", "OpenImageIO/", true},
-                                             {"assimp", "assimp/", true},
                                              {"tinyobjloader", "tiny_obj_loader.h", true},
                                              {"FreeType", "freetype/", true},
                                              {"fontconfig", "fontconfig/", true},
