@@ -29,23 +29,24 @@ Triple place_in(const Matrix& m, const double* v) {
   return place;
 }
 
-/// By the matrix of cofactors, as normals go; of a mirrored one, outwards still.
-Triple normal_in(const Matrix& m, const double* n) {
-  Triple normal{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto &b = m[(i + 1) % 3], &c = m[(i + 2) % 3];
-    for (std::size_t j = 0; j < 3; ++j) {
-      const std::size_t k = (j + 1) % 3, l = (j + 2) % 3;
-      normal[i] += (b[k] * c[l] - b[l] * c[k]) * n[j];
-    }
-  }
-  return normal;
-}
-
 double determinant(const Matrix& m) {
   return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
          m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/// By the matrix of cofactors, as normals go; of a mirrored one by its opposite: outwards still.
+Triple normal_in(const Matrix& m, const double* n) {
+  Triple normal{};
+  const double way = determinant(m) < 0.0 ? -1.0 : 1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto &b = m[(i + 1) % 3], &c = m[(i + 2) % 3];
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t k = (j + 1) % 3, l = (j + 2) % 3;
+      normal[i] += way * (b[k] * c[l] - b[l] * c[k]) * n[j];
+    }
+  }
+  return normal;
 }
 
 /// By its matrix, or by its scale, rotation and translation.
