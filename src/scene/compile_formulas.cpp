@@ -104,10 +104,12 @@ Expression bound(Compilation& c, const Node& written) {
   return in_own_time(c.values, std::get<Expression>(written.value));
 }
 
+constexpr int deepest = 18;
+
 // |v| < c at all points of the bounds where the surface may be, whenever: by intervals over pieces of the
 // box.
-bool is_slower_than_light(const MatterMotion::Map& velocity, double c, const ImplicitFormula& f,
-                          const Vec3& low, const Vec3& high, int depth) {
+bool is_slower(const MatterMotion::Map& velocity, double c, const ImplicitFormula& f, const Vec3& low,
+               const Vec3& high, int depth) {
   const Interval time{-always, always, Continuity::continuous};
   const Interval value = f.range(low, high, time);
   if (value.lower > 0.0 || value.upper < 0.0) return true;
@@ -130,8 +132,8 @@ bool is_slower_than_light(const MatterMotion::Map& velocity, double c, const Imp
   const double middle = 0.5 * low[axis] + 0.5 * high[axis];
   Vec3 below = high, above = low;
   below[axis] = above[axis] = middle;
-  return is_slower_than_light(velocity, c, f, low, below, depth - 1) &&
-         is_slower_than_light(velocity, c, f, above, high, depth - 1);
+  return is_slower(velocity, c, f, low, below, depth - 1) &&
+         is_slower(velocity, c, f, above, high, depth - 1);
 }
 
 std::shared_ptr<const MatterMotion> given_motion(Compilation& c, const TableView& table,
@@ -139,8 +141,7 @@ std::shared_ptr<const MatterMotion> given_motion(Compilation& c, const TableView
   if (!table.is_sound("matter_velocity")) return {};
   const NodeArray& written = *table.node_of("matter_velocity")->array();
   const MatterMotion::Map velocity{bound(c, written[0]), bound(c, written[1]), bound(c, written[2])};
-  constexpr int deepest = 18;
-  if (!is_slower_than_light(velocity, c.scene.c, f, bounds.low, bounds.high, deepest)) {
+  if (!is_slower(velocity, c.scene.c, f, bounds.low, bounds.high, deepest)) {
     table.error("matter_velocity",
                 "matter on the surface cannot be shown to be slower than light, c = " +
                     number_text(c.scene.c) + ", within the bounds",
@@ -188,6 +189,19 @@ std::optional<Shape> finished(Compilation& c, const TableView& table, std::strin
 }
 
 }  // namespace
+
+double speed_of_flow(const Shape& shape, double c) {
+  const MatterMotion::Map* flow = shape.motion ? shape.motion->flow() : nullptr;
+  if (flow == nullptr) return 0.0;
+  const auto& v = shape.values;
+  constexpr int steps = 64;
+  for (int i = 1; i < steps; ++i) {
+    const double speed = i * c / steps;
+    if (is_slower(*flow, speed, *shape.formula, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, deepest))
+      return speed;
+  }
+  return c;
+}
 
 std::optional<FormulaBounds> written_bounds(const TableView& table) {
   if (!table.has_valid("bounds") || !table.is_sound("bounds")) return std::nullopt;

@@ -44,6 +44,9 @@ std::optional<Shape> compile_blend(Compilation& c, const TableView& table,
 /// it is wrong.
 std::optional<Expression> bound_formula(Compilation& c, const TableView& table);
 
+/// A bound on how fast matter flows within a shape, in lengths for a second; 0 where it does not.
+double speed_of_flow(const Shape& shape, double c);
+
 /// The written bounds; nothing when there are none or when they are wrong (and reported).
 std::optional<FormulaBounds> written_bounds(const TableView& table);
 

@@ -232,10 +232,11 @@ class MotionCompiler {
     one.add(shape, Placement{});
     const TableView& in_motion = place_uses_time(c_.values.description, *table.node()) ? table : object_;
     const std::vector<HullBall> hull = hull_of(shape);
-    const auto proof = prover_.prove(in_motion, levels, hull, offset_);
+    const auto proof = prover_.prove(in_motion, levels, hull, offset_, speed_of_flow(shape, c_.scene.c));
     if (!proof) return std::nullopt;
     proved_anywhere_ = proved_anywhere_ && std::isinf(proof->begins);
-    const MatterMotion::Body body = body_of(levels);
+    MatterMotion::Body body = body_of(levels);
+    if (shape.motion && shape.motion->flow() != nullptr) body.flow = *shape.motion->flow();
     const Interval times = times_of(*proof);
     const double radius = one.bounds(0).radius * stretch_of(levels, times.lower, times.upper);
     MatterMotion::Ball ball = ball_of(body, *proof, radius * (1.0 + 1e-12), c_.scene.c);

@@ -145,10 +145,10 @@ struct Speeds {
 };
 
 /// Bounds over times in [from, to], in units of c: |v| <= |ċ| + Σ |α̇| ρ + |Ṡ X| + |S| v_inner, from the
-/// inside outwards.
-Speeds speeds(const std::vector<MotionLevel>& levels, std::vector<HullBall> hull, double c, double from,
-              double to) {
-  double body = 0.0;
+/// inside outwards, where matter flows at `within` in the innermost.
+Speeds speeds(const std::vector<MotionLevel>& levels, std::vector<HullBall> hull, double c, double within,
+              double from, double to) {
+  double body = within;
   double centre = 0.0;
   double centre_reach = 0.0;
   for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
@@ -276,7 +276,8 @@ SpeedProver::SpeedProver(Compilation& c, int frame) : c_(c) {
 }
 
 std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::vector<MotionLevel>& levels,
-                                             const std::vector<HullBall>& hull, const Vec3& offset) const {
+                                             const std::vector<HullBall>& hull, const Vec3& offset,
+                                             double within) const {
   const MatterMotion::Body body = body_of(levels);
   const double c = c_.scene.c;
   const auto body_at = [&](double time) {
@@ -299,7 +300,7 @@ std::optional<SpeedProof> SpeedProver::prove(const TableView& table, const std::
     constexpr double longest = 1000.0;  // what is seen from a thousand times as far is a point at most
     return is_seen_later(last_ - (last_ - time) / of_shadows) || (!rocket && time < last_ - longest * reach);
   };
-  const SpeedProof proof = prove_speed(levels, hull, c, last_, reach, is_enough);
+  const SpeedProof proof = prove_speed(levels, hull, c, last_, reach, is_enough, within);
   if (std::isinf(proof.begins) || proof.begins <= last_ - reach || is_seen_later(proof.begins)) return proof;
   refuse(table, rocket, hull, proof);
   return std::nullopt;
@@ -340,16 +341,18 @@ bool uses_time(const Description& description, const Node& node) {
 }
 
 SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector<HullBall>& hull, double c,
-                       double last, double reach, const std::function<bool(double)>& is_enough) {
+                       double last, double reach, const std::function<bool(double)>& is_enough,
+                       double within) {
   const auto below = [](const Speeds& its) { return its.body < 1.0; };
-  if (const Speeds all = speeds(levels, hull, c, -always, always); below(all)) return {all.body, all.centre};
+  if (const Speeds all = speeds(levels, hull, c, within, -always, always); below(all))
+    return {all.body, all.centre};
   SpeedProof proof;
   proof.begins = last;
   constexpr int most_pieces = 40'000;
   double length = reach / 64.0;
   for (int i = 0; i < most_pieces && (proof.begins > last - reach || !is_enough(proof.begins)); ++i) {
     const double from = proof.begins - length;
-    const Speeds piece = speeds(levels, hull, c, from, proof.begins);
+    const Speeds piece = speeds(levels, hull, c, within, from, proof.begins);
     if (below(piece)) {
       proof.speed = std::max(proof.speed, piece.body);
       proof.centre_speed = std::max(proof.centre_speed, piece.centre);

@@ -40,10 +40,12 @@ class SpeedProver {
   /// No ray gets to a later time, in seconds.
   [[nodiscard]] double last() const { return last_; }
 
-  /// The proof for a hull whose coordinates begin at `offset`; nothing if it may be seen at the speed of
-  /// light, which has then been reported, with the key of `table` that says so.
+  /// The proof for a hull whose coordinates begin at `offset`, and in which matter flows at `within` at most,
+  /// in lengths for a second; nothing if it may be seen at the speed of light, which has then been reported,
+  /// with the key of `table` that says so.
   std::optional<SpeedProof> prove(const TableView& table, const std::vector<MotionLevel>& levels,
-                                  const std::vector<HullBall>& hull, const Vec3& offset) const;
+                                  const std::vector<HullBall>& hull, const Vec3& offset,
+                                  double within = 0.0) const;
 
  private:
   void refuse(const TableView& table, const std::optional<RocketFlight>& rocket,
@@ -60,7 +62,8 @@ bool uses_time(const Description& description, const Node& node);
 /// Proved backwards from `last`: as far as it is below the speed of light, or for `reach` seconds at least
 /// and until `is_enough` of a time.
 SpeedProof prove_speed(const std::vector<MotionLevel>& levels, const std::vector<HullBall>& hull, double c,
-                       double last, double reach, const std::function<bool(double)>& is_enough);
+                       double last, double reach, const std::function<bool(double)>& is_enough,
+                       double within = 0.0);
 
 /// How much at most a body is stretched at times in [from, to].
 double stretch_of(const std::vector<MotionLevel>& levels, double from, double to);

@@ -16,9 +16,10 @@ Vec3 values_of(const MatterMotion::Map& map, const Vec3& x, double seconds) {
   return {map[0].evaluate(at), map[1].evaluate(at), map[2].evaluate(at)};
 }
 
-/// The map's values and their rates of change, x held.
-MatterMotion::Centre rates_of(const MatterMotion::Map& map, const Vec3& x, double seconds, double rate) {
-  const std::array<Dual, 4> at{Dual{x.x, 0.0}, Dual{x.y, 0.0}, Dual{x.z, 0.0}, Dual{seconds, rate}};
+/// The map's values and their rates of change, x changing at the rate `v`.
+MatterMotion::Centre rates_of(const MatterMotion::Map& map, const Vec3& x, const Vec3& v, double seconds,
+                              double rate) {
+  const std::array<Dual, 4> at{Dual{x.x, v.x}, Dual{x.y, v.y}, Dual{x.z, v.z}, Dual{seconds, rate}};
   MatterMotion::Centre result;
   for (int i = 0; i < 3; ++i) {
     const Dual value = map[static_cast<std::size_t>(i)].evaluate(std::span<const Dual>(at));
@@ -52,7 +53,9 @@ Vec3 MatterMotion::body_point(const Vec3& place, double time) const {
 }
 
 Vec3 MatterMotion::velocity_of(const Vec3& point, double time) const {
-  return rates_of(body_->place, point, time_.seconds_per_length * time, time_.seconds_per_length).velocity;
+  const double rate = time_.seconds_per_length, seconds = rate * time;
+  const Vec3 within = body_->flow ? rate * values_of(*body_->flow, point, seconds) : Vec3{0.0};
+  return rates_of(body_->place, point, within, seconds, rate).velocity;
 }
 
 Vec3 MatterMotion::given_velocity(const Vec3& place, double time) const {
@@ -64,8 +67,8 @@ Vec3 MatterMotion::velocity(const Vec3& place, double time) const {
 }
 
 double MatterMotion::own_time(const Vec3& place, double time, const Mat3& rest_from_local) const {
-  if (!body_) {
-    const auto flow = [this](const Vec3& at, double when) { return given_velocity(at, when); };
+  if (!body_ || body_->flow) {
+    const auto flow = [this](const Vec3& at, double when) { return velocity(at, when); };
     return own_time_of_flow(flow, rest_from_local, place, time);
   }
   const Vec3 point = body_point(place, time);
@@ -103,7 +106,8 @@ MatterMotion::Centre MatterMotion::near_centre(double time) const {
 
 MatterMotion::Centre MatterMotion::centre(double time) const {
   if (carriage_) return moment_of(path_, time);
-  return rates_of(ball_->path, Vec3{0.0}, time_.seconds_per_length * time, time_.seconds_per_length);
+  return rates_of(ball_->path, Vec3{0.0}, Vec3{0.0}, time_.seconds_per_length * time,
+                  time_.seconds_per_length);
 }
 
 Vec3 MatterMotion::farthest() const {

@@ -106,9 +106,21 @@ TEST(MatterVelocity, OfARigidMotionIsThatOfTheBody) {
       implicit(x + "^4 + 2*y^4 + " + z + "^4 - 0.5*" + x + "*" + z + " - 0.6",
                "bounds = [[-1.3, -1.3, -1.3], [1.3, 1.3, 1.3]]\nmatter_velocity = [\"0.5*z\", \"0\", "
                "\"-0.5*x\"]\n");
-  const std::string turned =
-      implicit(shape, "rotate = [0, \"" + digits(w * 180.0 / std::numbers::pi) + "*t\", 0]\n");
+  const std::string rotate = "rotate = [0, \"" + digits(w * 180.0 / std::numbers::pi) + "*t\", 0]\n";
+  const std::string turned = implicit(shape, rotate);
   expect_same(match(render_text(stage() + turned), render_text(stage() + flow)), "turning");
+  // Within a body that goes its own way, the velocities in it come on top.
+  const std::string round = "x^2 + 2*y^2 + z^2 - 1";
+  const std::string way = "position = [\"0.3*sin(t)\", 0.1, \"0.1*t\"]\nscale = [1, 0.9, 1]\n";
+  const std::string whirl = "matter_velocity = [\"0.5*z\", \"0\", \"-0.5*x\"]\n";
+  expect_same(match(render_text(stage() + implicit(round, rotate + way)),
+                    render_text(stage() + implicit(round, whirl + way))),
+              "turning on its way");
+  // Neither alone is faster than light.
+  const std::string fast = "matter_velocity = [\"0.7*z\", \"0\", \"-0.7*x\"]\n";
+  const std::string faster = implicit(round, fast + "position = [\"0.5*sin(t)\", 0, 0]\n");
+  EXPECT_NO_THROW(render_text(stage() + implicit(round, fast)));
+  EXPECT_THROW(render_text(stage() + faster), std::exception);
 
   const std::string moved = implicit(shape, "position = [\"0.3*sin(t)\", 0, 0]\n");
   const std::string gone = "(x - 0.3*sin(t))";

@@ -27,6 +27,9 @@ class MatterMotion {
     Map point;  ///< of a place: which body point is there
     /// After which, in seconds, body points have the velocities again that they had, if one is known.
     std::optional<double> period{};
+    /// Of the matter within the body, in its coordinates, in lengths for a second; without one its points
+    /// rest.
+    std::optional<Map> flow{};
   };
 
   /// Of a surface that goes away: a ball that holds it at all times, whose centre goes along a path. Local
@@ -63,6 +66,9 @@ class MatterMotion {
 
   /// Of whose points it tells; null: of none.
   [[nodiscard]] const Shape* body_shape() const { return body_ ? &body_shape_ : nullptr; }
+
+  /// The velocity of a flow in local lengths for a second; null of a body.
+  [[nodiscard]] const Map* flow() const { return velocity_ ? &*velocity_ : nullptr; }
 
   /// Which body point is at a place; the place itself where that is not told.
   [[nodiscard]] Vec3 body_point(const Vec3& place, double time) const;
