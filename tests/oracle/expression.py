@@ -79,13 +79,13 @@ class _Literals(ast.NodeTransformer):
         return ast.copy_location(ast.Call(ast.Name("_real", ast.Load()), [ast.Constant(float(node.value))], []), node)
 
 
-def compiled(value, variables, kind):
-    """A number as written, as a function of t in the arithmetic `kind` (real, functions, constants)."""
+def compiled(value, variables, kind, of=("t",)):
+    """A number as written, as a function of `of` in the arithmetic `kind` (real, functions, constants)."""
     if not isinstance(value, str):
         number = kind.real(value)
-        return lambda t: number
+        return lambda *_: number
     tree = ast.parse(value.strip().replace("^", "**"), mode="eval")
-    _value(tree.body, CONSTANTS | {k: 1.0 for k in variables} | {"t": 0.5}, FUNCTIONS)  # refuses all else
+    _value(tree.body, CONSTANTS | {k: 1.0 for k in variables} | {k: 0.5 for k in of}, FUNCTIONS)  # refuses all else
     code = compile(ast.fix_missing_locations(_Literals().visit(tree)), "formula", "eval")
     names = kind.functions | kind.constants | variables | {"_real": kind.real, "__builtins__": {}}
-    return lambda t: eval(code, names | {"t": t})
+    return lambda *values: eval(code, names | dict(zip(of, values)))

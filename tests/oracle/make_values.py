@@ -14,24 +14,24 @@ from reference import Reference, rounded_condition, to_json
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 VALUES = os.path.join(HERE, "..", "analytic", "values")
-COLUMNS, ROWS = 12, 9
 
 
-def grid(camera):
-    """COLUMNS x ROWS pixels, evenly spread."""
-    return [((2 * k + 1) * camera.width // (2 * COLUMNS), (2 * m + 1) * camera.height // (2 * ROWS))
-            for m in range(ROWS) for k in range(COLUMNS)]
+def grid(camera, name):
+    """12 x 9 pixels, evenly spread, or 7 x 5 of a scene that was made at random."""
+    columns, rows = (7, 5) if name.startswith("random_") else (12, 9)
+    return [((2 * k + 1) * camera.width // (2 * columns), (2 * m + 1) * camera.height // (2 * rows))
+            for m in range(rows) for k in range(columns)]
 
 
 def values_of(path):
     """The JSON text of a scene's values, one line a pixel, and a line about it for people."""
     reference = Reference(path)
     light_delay = reference.scene.effects.get("light_delay", True)
-    records = [reference.pixel(i, j, light_delay) for i, j in grid(reference.scene.camera)]
+    name = os.path.basename(path)
+    records = [reference.pixel(i, j, light_delay) for i, j in grid(reference.scene.camera, name)]
     hits = sum(r["objectId"] > 0 for r in records)
     colours = sum("RGB" in r for r in records)
     lines = [to_json({k: v for k, v in rounded_condition(r).items() if k != "light_delay"}) for r in records]
-    name = os.path.basename(path)
     text = f'{{"scene": "{name}",\n "pixels": [\n  ' + ",\n  ".join(lines) + "\n]}\n"
     edges = sum(r["edge"] for r in records)
     return text, f"{name}: {hits} of {len(records)} hit, {edges} at edges, {colours} with colour"

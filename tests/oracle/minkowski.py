@@ -14,7 +14,7 @@ ZERO, ONE = mpf(0), mpf(1)
 
 def dot(a, b):
     """Euclidean scalar product of two equally long vectors."""
-    return sum((x * y for x, y in zip(a, b)), ZERO)
+    return sum(x * y for x, y in zip(a, b))
 
 
 def norm(a):

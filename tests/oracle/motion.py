@@ -1,8 +1,7 @@
-"""Matter and lamps that move in their frame by formulas of t or as rockets (docs/physics.md section 13).
+"""How matter and lamps move in their frame, by formulas of t or as rockets (docs/physics.md section 10).
 
-Everything is done with the map from body points to places and its inverse, at 60 digits: velocities and
-normals by differences of 1e-20, own times by quadrature, roots by stepping along the ray no farther than the
-body can come, and bisection. Times are the frame's, times c.
+Everything is done with the map from body points to places and its inverse, at 60 digits: velocities by differences of
+1e-20, own times by quadrature. Times are the frame's, times c.
 """
 import ast
 import math
@@ -10,7 +9,7 @@ import math
 from mpmath import mp, mpf
 
 from expression import CONSTANTS, FUNCTIONS, PRECISE, compiled
-from minkowski import ONE, ZERO, along, apply, boost, dot, norm, rotation_about_axes, scaled, subtract, unit
+from minkowski import ZERO, dot, norm, scaled, subtract, unit
 
 STEP = mpf(10) ** -20
 OWN_TIME_DIGITS = 24
@@ -22,11 +21,6 @@ def uses_t(value):
         return any(uses_t(v) for v in value)
     return isinstance(value, str) and any(isinstance(node, ast.Name) and node.id == "t"
                                           for node in ast.walk(ast.parse(value.strip().replace("^", "**"))))
-
-
-def is_in_motion(table):
-    """Whether a table without a velocity says that its thing moves in its frame."""
-    return "rocket" in table or any(uses_t(table.get(key)) for key in ("position", "rotate", "scale"))
 
 
 class Numbers:
@@ -46,14 +40,18 @@ def precise():
 
 
 class Motion:
-    """Where the points of a body are at each time."""
+    """Where the points of a body are at each time, in the coordinates of what it is part of."""
 
-    def __init__(self, table, scene, offset):
+    TIMES = [-60 + 0.2 * k for k in range(601)]  # at which bounds are looked for
+
+    def __init__(self, table, scene, offset, position=None):
         self.c = scene.c
-        triple = lambda key, default: table.get(key, default)
-        scale = triple("scale", 1)
-        written = [triple("position", [0, 0, 0]), triple("rotate", [0, 0, 0]),
+        scale = table.get("scale", 1)
+        written = [table.get("position", [0, 0, 0]), table.get("rotate", [0, 0, 0]),
                    scale if isinstance(scale, list) else [scale] * 3]
+        if position is not None:  # what has a velocity rests in the frame of that, anew for each image
+            written = [position] + [scene.vector(three) for three in written[1:]]
+        written = [[v if uses_t(v) else scene.number(v) for v in three] for three in written]
         self.kinds = {}
         for name, kind in (("double", DOUBLES), ("precise", precise())):
             variables = {k: kind.real(v) for k, v in scene.variables.items()}
@@ -64,14 +62,22 @@ class Motion:
         if "rocket" in table:
             along_ = unit(scene.vector(table["rocket"]["along"]))
             self.rocket = (scene.c ** 2 / scene.number(table["rocket"]["acceleration"]), along_)
+        self.formulas_move = any(uses_t(three) for three in written)
+        self.in_motion = self.rocket is not None or self.formulas_move
+        self._still = {}
 
     def _level(self, time, name):
         """(kind, position, rotation matrix as rows, scale) at a time."""
+        if name in self._still:
+            return self._still[name]
         kind, (position, rotate, scale) = self.kinds[name]
         t = kind.real(time) / kind.real(self.c)
         at = [f(t) + kind.real(o) for f, o in zip(position, self.offset)]
         angles = [f(t) * kind.constants["pi"] / 180 for f in rotate]
-        return kind, at, rotation(angles, kind), [f(t) for f in scale]
+        level = kind, at, rotation(angles, kind), [f(t) for f in scale]
+        if not self.formulas_move:
+            self._still[name] = level
+        return level
 
     def place(self, point, time, name="precise"):
         """Where a body point is."""
@@ -97,27 +103,59 @@ class Motion:
             y = [a + back * b for a, b in zip(y, n)]
         return [sum(turn[row][k] * y[row] for row in range(3)) / scale[k] for k in range(3)]
 
-    def velocity(self, point, time):
-        """Of a body point."""
-        later, earlier = self.place(point, time + STEP), self.place(point, time - STEP)
-        return [(a - b) / (2 * STEP) for a, b in zip(later, earlier)]
+    def covector_out(self, gradient):
+        """A gradient in body coordinates in those of what the body is part of, of what is at rest."""
+        _, _, turn, scale = self._level(ZERO, "precise")
+        return [sum(turn[row][k] * gradient[k] / scale[k] for k in range(3)) for row in range(3)]
+
+    def _over_times(self, value, of):
+        """The extreme of something of the level, with some room where it is of only many times."""
+        if not self.formulas_move:
+            return of(value(self._level(0.0, "double")))
+        room = 0.95 if of is min else 1.05
+        return room * of(v for t in self.TIMES for v in value(self._level(t, "double")))
+
+    def least_scale(self):
+        """The least of the stretches, over all times."""
+        return self._over_times(lambda level: [abs(s) for s in level[3]], min)
+
+    def largest_scale(self):
+        """The largest of them."""
+        return self._over_times(lambda level: [abs(s) for s in level[3]], max)
+
+    def farthest(self):
+        """How far the body's centre comes from the origin of what it is part of."""
+        return self._over_times(lambda level: [math.sqrt(sum(x * x for x in level[1]))], max)
+
+    def steepness(self, time, radius):
+        """How much nearer to each other points of a rocket are than they are to those aboard: their gamma."""
+        if self.rocket is None:
+            return 1.0
+        rear = float(self.rocket[0]) - radius
+        return math.hypot(1.0, time / rear) if rear > 0 else 1e3
 
     def celerity(self, point, time):
         """gamma v of a body point."""
-        v = self.velocity(point, time)
+        later, earlier = self.place(point, time + STEP), self.place(point, time - STEP)
+        v = [(a - b) / (2 * STEP) for a, b in zip(later, earlier)]
         return scaled(v, 1 / mp.sqrt(1 - dot(v, v)))
 
     def own_time(self, point, time):
         """What the clock of a body point has counted since the frame's time 0."""
-        with mp.workdps(OWN_TIME_DIGITS):
-            pieces = max(1, int(math.ceil(abs(float(time)) / 1.5)))
-            ends = [mpf(time) * k / pieces for k in range(pieces + 1)]
-            h = mpf(10) ** -9
+        h = mpf(10) ** -9
 
-            def rate(t):
-                later, earlier = self.place(point, t + h), self.place(point, t - h)
-                return mp.sqrt(1 - sum(((a - b) / (2 * h)) ** 2 for a, b in zip(later, earlier)))
-            return mp.quad(rate, ends, method="gauss-legendre", maxdegree=4)
+        def rate(t):
+            later, earlier = self.place(point, t + h), self.place(point, t - h)
+            return mp.sqrt(1 - sum(((a - b) / (2 * h)) ** 2 for a, b in zip(later, earlier)))
+        return clock(rate, time)
+
+
+def clock(rate, time):
+    """The integral of a clock's rate from 0 to a time."""
+    with mp.workdps(OWN_TIME_DIGITS):
+        pieces = max(1, int(math.ceil(abs(float(time)) / 1.5)))
+        ends = [mpf(time) * k / pieces for k in range(pieces + 1)]
+        return mp.quad(rate, ends, method="gauss-legendre", maxdegree=4)
 
 
 def rotation(angles, kind):
@@ -126,113 +164,6 @@ def rotation(angles, kind):
     return [[cc * cb, cc * sb * sa - sc * ca, cc * sb * ca + sc * sa],
             [sc * cb, sc * sb * sa + cc * ca, sc * sb * ca - cc * sa],
             [-sb, cb * sa, cb * ca]]
-
-
-def inside(shape, p):
-    """(f, face): negative inside; of the face that f is of."""
-    kind = shape["kind"]
-    x, y, z = p
-    if kind == "sphere":
-        return x * x + y * y + z * z - shape["radius"] ** 2, 0
-    if kind == "torus":
-        root = (x * x + z * z) ** 0.5 if isinstance(x, float) else mp.sqrt(x * x + z * z)
-        return (root - shape["major"]) ** 2 + y * y - shape["minor"] ** 2, 0
-    if kind == "box":
-        return max((abs(a) - extent / 2, 2 * i + (a > 0)) for i, (a, extent) in enumerate(zip(p, shape["size"])))
-    if kind in ("cylinder", "cone"):
-        half = shape["height"] / 2
-        top = shape["radius"] if kind == "cylinder" else shape.get("top_radius", 0 * half)
-        radius = (shape["radius"] + top) / 2 + (top - shape["radius"]) / shape["height"] * y
-        root = (x * x + z * z) ** 0.5 if isinstance(x, float) else mp.sqrt(x * x + z * z)
-        return max((root - radius, 0), (abs(y) - half, 1 + (y > 0)))
-    raise ValueError(f"no reference for shape '{kind}' in motion")
-
-
-def reach(shape):
-    """The radius of a ball about the origin that holds it."""
-    kind = shape["kind"]
-    if kind == "sphere":
-        return float(shape["radius"])
-    if kind == "torus":
-        return float(shape["major"] + shape["minor"])
-    if kind == "box":
-        return float(norm(shape["size"])) / 2
-    return math.hypot(float(max(shape["radius"], shape.get("top_radius", 0))), float(shape["height"]) / 2)
-
-
-class MovingBody:
-    """A shape in motion, asked by null lines or others of its frame."""
-
-    SAMPLES = 160  # across its diameter
-    FARTHEST = 400.0
-
-    def __init__(self, shape, motion):
-        self.shape, self.motion = shape, motion
-        self.rough = {k: [float(v) for v in value] if isinstance(value, list) else
-                      value if isinstance(value, str) else float(value) for k, value in shape.items()}
-        largest = max(abs(f(0.0)) for f in motion.kinds["double"][1][2])
-        self.radius = 1.5 * reach(shape) * max(1.0, largest)  # scales are not to grow by more than half
-
-    def value(self, event, name):
-        """f and the face at an event."""
-        point = self.motion.point(event[1:], event[0], name)
-        if point is None:
-            return (1.0, -1)
-        return inside(self.rough if name == "double" else self.shape, point)
-
-    def roots(self, start, direction, end):
-        """(s, face) of all crossings with 0 < s < end."""
-        rough_start, rough = [float(x) for x in start], [float(x) for x in direction]
-        size = math.sqrt(sum(x * x for x in rough[1:]))
-        fastest = size + abs(rough[0])
-        last = min(float(end) if end is not None else math.inf, self.FARTHEST / size)
-        at = lambda s: [a + s * b for a, b in zip(rough_start, rough)]
-        found, s, before = [], 0.0, None
-        while s < last:
-            event = at(s)
-            centre = self.motion.place([0.0] * 3, event[0], "double")
-            away = math.sqrt(sum((a - b) ** 2 for a, b in zip(event[1:], centre))) - self.radius
-            if away > 0:
-                before = None
-                s += max(away / fastest, 1e-6 / size)
-                continue
-            now = self.value(event, "double")[0] < 0
-            if before is not None and now != before[1]:
-                found.append(self.refined(start, direction, before[0], s, now))
-            before = (s, now)
-            s += 2 * self.radius / self.SAMPLES / fastest
-        return found
-
-    def refined(self, start, direction, low, high, ends_inside):
-        """The crossing between two parameters, by bisection and then by regula falsi."""
-        f = lambda s: self.value(along(start, direction, s), "precise")[0]
-        low, high = mpf(low), mpf(high)
-        for _ in range(30):
-            middle = (low + high) / 2
-            if (f(middle) < 0) == ends_inside:
-                high = middle
-            else:
-                low = middle
-        try:
-            s = mp.findroot(f, (low, high), solver="anderson", tol=mpf(10) ** -80, maxsteps=60, verify=False)
-        except ZeroDivisionError:
-            s = low
-        return s, self.value(along(start, direction, low), "precise")[1]
-
-    def matter_at(self, event):
-        """(body point, celerity, normal in the matter's own frame) of a point of the surface."""
-        point = self.motion.point(event[1:], event[0])
-        celerity = self.motion.celerity(point, event[0])
-        slopes = []
-        for k in range(4):
-            step = [STEP if i == k else ZERO for i in range(4)]
-            later = self.value([a + b for a, b in zip(event, step)], "precise")[0]
-            earlier = self.value([a - b for a, b in zip(event, step)], "precise")[0]
-            slopes.append((later - earlier) / (2 * STEP))
-        own = apply(boost(celerity), [-slopes[0]] + slopes[1:])
-        if abs(own[0]) > mpf(10) ** -15 * norm(own[1:]):
-            raise ArithmeticError("the surface does not go with its matter")
-        return point, celerity, unit(own[1:])
 
 
 def retarded(motion, event):

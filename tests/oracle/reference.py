@@ -36,11 +36,11 @@ class Reference:
     def look(self, direction, light_delay):
         """(values by name, signature) of one looking direction in the camera frame."""
         camera = self.scene.camera
-        ray = self.tracer.camera_ray(direction, light_delay)
-        hit = self.tracer.nearest(camera.frame, camera.event, ray)
+        ray, glass = self.tracer.camera_ray(direction, light_delay)
+        hit = self.tracer.nearest(camera.frame, camera.event, ray, glass=glass)
         values = self.tracer.aovs(hit, light_delay) if hit else {}
         signature = hit.signature() if hit else (0, 0, 0)
-        if hit and "mirror" in hit.obj.material:
+        if hit and self.tracer.passed_on(hit, light_delay):
             mirrored, through = self.tracer.seen_in_mirror(hit, light_delay)
             values |= mirrored
             signature += through
@@ -56,12 +56,19 @@ class Reference:
         beside = [pixel_direction(self.scene.camera, i + step, j) for step in (1, -1)]
         return min(norm(subtract(d, direction)) for d in beside if d is not None)
 
-    def pixel(self, i, j, light_delay=True):
-        """All that is known of pixel centre (i, j), as a dictionary ready for `to_json`."""
+    def pixel(self, i, j, light_delay=True, agrees=lambda record: False):
+        """All that is known of pixel centre (i, j), as a dictionary ready for `to_json`. Of one whose record agrees with
+        what it is compared with, it is not asked how well its direction determines it."""
         direction = pixel_direction(self.scene.camera, i, j)
         if direction is None:
             return {"pixel": [i, j], "light_delay": light_delay, "objectId": 0, "outside": True, "edge": False}
         values, signature = self.look(direction, light_delay)
+        record = {"pixel": [i, j], "light_delay": light_delay, "objectId": signature[0], **values,
+                  "condition": {name: mpf(0) for name in values}, "edge": False}
+        return record if agrees(record) else record | self.doubts(direction, i, j, light_delay, values, signature)
+
+    def doubts(self, direction, i, j, light_delay, values, signature):
+        """{edge, condition} of a pixel."""
         wiggles = random.Random(i * 100003 + j)  # any fixed choice: results must repeat
         pitch = min(mpf(1), self.pixel_pitch(direction, i, j) / ORDINARY_PITCH)
         edge = any(self.look(moved(direction, size * pitch, wiggles), light_delay)[1] != signature
@@ -72,8 +79,7 @@ class Reference:
             for name in values:
                 change = relative_difference(others[name], values[name])
                 condition[name] = max(condition[name], change)
-        return {"pixel": [i, j], "light_delay": light_delay, "objectId": signature[0], **values,
-                "condition": condition, "edge": edge}
+        return {"condition": condition, "edge": edge}
 
 
 def moved(direction, size, generator):

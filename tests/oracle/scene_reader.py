@@ -1,7 +1,7 @@
 """Scene file to frames, objects, lights and camera, at one frame of the animation.
 
 Follows the scene format contract for what it covers; anything else that would change a value
-(CSG, implicit surfaces, stereo) is refused with ValueError rather than ignored.
+(stereo) is refused with ValueError rather than ignored.
 """
 import os
 import tomllib
@@ -9,10 +9,12 @@ from dataclasses import dataclass, field
 
 from mpmath import mp, mpf
 
-from expression import evaluate, number, vector
-from motion import Motion, MovingBody, is_in_motion
-from minkowski import (Frame, ONE, ZERO, apply, dot, multiply, rotation_about_axes, scaled,
-                       subtract, transpose, unit)
+from expression import evaluate, evaluate_precisely, number, vector
+import cameras
+from bodies import Body
+from meshes import read_obj
+from motion import Motion
+from minkowski import Frame, ZERO, dot, rotation_about_axes, scaled, unit
 
 MOTION_KEYS = ("velocity", "beta", "gamma", "celerity", "rapidity")
 MERGED_TABLES = ("frame", "material")
@@ -21,22 +23,17 @@ MERGED_LISTS = ("light", "object")
 
 @dataclass
 class SceneObject:
-    """One copy of an [[object]]: shape in local coordinates, placement in its rest frame."""
+    """One copy of an [[object]]: its body in its rest frame."""
     object_id: int
     copy: int
     name: str
-    shape: dict
     frame: Frame
     position: list
-    rotation: list      # local axes to frame axes
-    scale: list
-    material: dict
-    body: MovingBody = None  # of what moves in its frame
-    to_local: list = field(init=False)  # linear part of frame -> local
-
-    def __post_init__(self):
-        inverse_scale = [[ONE / self.scale[i] if i == j else ZERO for j in range(3)] for i in range(3)]
-        self.to_local = multiply(inverse_scale, transpose(self.rotation))
+    rotation: list      # body axes to frame axes
+    material: dict      # of what has none of its own
+    body: Body
+    visible: str        # a formula of the own time of its matter, or None
+    casts_shadow: bool
 
 
 @dataclass
@@ -48,18 +45,6 @@ class Light:
     position: list
     direction: list
     motion: Motion = None
-
-
-@dataclass
-class Camera:
-    """The camera event (own frame coordinates), the axes f, r, u and the projection."""
-    frame: Frame
-    event: list
-    axes: tuple
-    projection: str
-    fov: mpf
-    width: int
-    height: int
 
 
 def load_document(path, including=()):
@@ -81,8 +66,8 @@ def load_document(path, including=()):
 class Scene:
     """Everything that the tracer needs. Lengths in scene units, times multiplied by c."""
 
-    def __init__(self, document, image=None, camera_name=None):
-        self.document = document
+    def __init__(self, document, image=None, camera_name=None, folder="."):
+        self.document, self.folder = document, folder
         self.c = mpf(1)
         self.variables = self._variables(image)
         self.c = self.number(document.get("c", 1))
@@ -159,22 +144,30 @@ class Scene:
         return Frame().moving_child(celerity, [ZERO] + position), [ZERO] * 3
 
     def _objects(self):
-        """All copies of all objects, in file order."""
+        """Every copy of every object, in file order, ids from 1."""
         found = []
         for index, table in enumerate(self.document.get("object", []), start=1):
             frame, position = self.rest_frame(table)
-            scale = table.get("scale", 1)
-            scale = self.vector(scale) if isinstance(scale, list) else [self.number(scale)] * 3
-            material = table.get("material", {})
-            material = self.materials[material] if isinstance(material, str) else material
+            fixed = position if any(key in table for key in MOTION_KEYS) else None
             rotation = rotation_about_axes(self.vector(table.get("rotate", [0, 0, 0])))
             for copy, offset in enumerate(self.copies(table)):
-                place = [p + o for p, o in zip(position, offset)]
-                shape = self._shape(table)
-                body = MovingBody(shape, Motion(table, self, offset)) if self._moves(table) else None
-                found.append(SceneObject(index, copy, table.get("name", ""), shape, frame,
-                                         place, rotation, scale, material, body))
+                body = Body(table, self, offset, fixed)
+                found.append(SceneObject(index, copy, table.get("name", ""), frame,
+                                         [p + o for p, o in zip(position, offset)], rotation,
+                                         self.material_of(table) or {}, body, table.get("visible"),
+                                         table.get("casts_shadow", True)))
         return found
+
+    def material_of(self, table):
+        """The keys of a thing's own material; None if it has none."""
+        material = table.get("material")
+        return self.materials[material] if isinstance(material, str) else material
+
+    def at_own_time(self, value, own_time):
+        """A number as written in a material or a light, by the own time (times c) of the matter."""
+        if not isinstance(value, str):
+            return mpf(value)
+        return evaluate_precisely(value, {k: mpf(v) for k, v in self.variables.items()} | {"t": own_time / self.c})
 
     def copies(self, table):
         """The offsets of the copies of a table with `repeat`, in the rest frame's axes."""
@@ -186,7 +179,7 @@ class Scene:
         return [[i * step[0], j * step[1], k * step[2]] for k in range(counts[2])
                 for j in range(counts[1]) for i in range(counts[0])]
 
-    def _shape(self, table):
+    def shape_of(self, table):
         """The shape's parameters as mpf, with its kind."""
         shape = {"kind": table["shape"]}
         for key in ("radius", "top_radius", "height", "major", "minor"):
@@ -195,18 +188,20 @@ class Scene:
         for key in ("size", "coefficients"):
             if key in table:
                 shape[key] = self.vector(table[key])
+        if "bounds" in table:
+            shape["bounds"] = [self.vector(corner) for corner in table["bounds"]]
+        if table["shape"] == "mesh":
+            shape |= read_obj(os.path.join(self.folder, table["file"]), table.get("smooth", True))
         return shape
 
     def _light(self, table):
         """A light in its rest frame."""
         frame, position = self.rest_frame(table)
-        direction = unit(self.vector(table["direction"])) if table["type"] == "distant" else None
-        motion = Motion(table, self, [ZERO] * 3) if self._moves(table) else None
-        return Light(table["type"], table, frame, position, direction, motion)
-
-    def _moves(self, table):
-        """Whether a thing moves in its frame."""
-        return is_in_motion(table) and not any(key in table for key in MOTION_KEYS)
+        direction = unit(self.vector(table["direction"])) if "direction" in table else None
+        fixed = position if any(key in table for key in MOTION_KEYS) else None
+        motion = Motion(table, self, [ZERO] * 3, fixed)
+        motion = motion if motion.in_motion else None
+        return Light(table.get("type", "point"), table, frame, position, direction, motion)
 
     def camera_table(self, name=None):
         """The table of the camera called `name`, or the only or first one."""
@@ -217,35 +212,9 @@ class Scene:
 
     def camera_of(self, table):
         """The camera at the exposure."""
-        frame, position = self.rest_frame(table)
-        event = [self._exposure(table, frame, position)] + position
-        if "look_at" in table:
-            start = self.vector(table.get("position", [0, 0, 0]))
-            forward = unit(subtract(self.vector(table["look_at"]), start))
-        else:
-            forward = unit(self.vector(table.get("direction", [0, 0, 1])))
-        width, height = self.document.get("film", {}).get("resolution", [64, 48])
-        return Camera(frame, event, axes_looking(forward, self.vector(table.get("up", [0, 1, 0]))),
-                      table.get("projection", "perspective"), self.number(table.get("fov", 60)),
-                      width, height)
-
-    def _exposure(self, table, frame, position):
-        """The camera's own time of the exposure, times c."""
-        if "world_time" in table:
-            world_time = self.number(table["world_time"]) * self.c
-            at_own_zero = frame.event_to_world([ZERO] + position)[0]
-            return (world_time - at_own_zero) / apply(frame.to_world, [ONE, ZERO, ZERO, ZERO])[0]
-        return self.number(table.get("time", "t")) * self.c
-
-
-def axes_looking(forward, up):
-    """(f, r, u): r = f x up normalised, u = r x f."""
-    f = forward
-    r = unit([f[1] * up[2] - f[2] * up[1], f[2] * up[0] - f[0] * up[2], f[0] * up[1] - f[1] * up[0]])
-    u = [r[1] * f[2] - r[2] * f[1], r[2] * f[0] - r[0] * f[2], r[0] * f[1] - r[1] * f[0]]
-    return f, r, u
+        return cameras.camera_of(self, table)
 
 
 def load_scene(path, image=None):
     """The scene of a file at an image of its animation (the first one unless told)."""
-    return Scene(load_document(path), image)
+    return Scene(load_document(path), image, folder=os.path.dirname(os.path.abspath(path)))

@@ -6,7 +6,7 @@ number of the smooth face that was met. No order, no s > 0: the caller chooses.
 """
 from mpmath import mp, mpf
 
-from minkowski import ONE, ZERO, along, dot, norm
+from minkowski import ONE, ZERO, along, cross, dot, norm, subtract
 
 IMAGINARY_PART_OF_A_REAL_ROOT = mpf(10) ** -22
 
@@ -143,8 +143,89 @@ def quadric(shape, start, direction):
     return hits
 
 
+def mesh(shape, start, direction):
+    """All triangles, each by Cramer's rule, but for those that doubles say are far from the line."""
+    nearest = -dot(start, direction) / dot(direction, direction)
+    closest = along(start, direction, nearest)
+    if norm(closest) > shape["reach"]:
+        return []
+    length, hits = norm(direction), []
+    rough = [float(x) for x in closest], [float(x / length) for x in direction]
+    for face, corners in enumerate(shape["triangles"]):
+        if not cramer(shape["rough"][face], *rough, 1e-6):
+            continue
+        met = cramer([shape["places"][corner[0]] for corner in corners], closest, direction, 0)
+        if met:
+            hits.append((nearest + met[0], met[1], face))
+    return hits
+
+
+def cramer(places, start, direction, room):
+    """(s, normal) of where a line meets a triangle, or is outside of it by so little; None where it does not."""
+    a, b, c = places
+    one, other, to = subtract(b, a), subtract(c, a), subtract(start, a)
+    normal = cross(one, other)
+    determinant = -dot(direction, normal)
+    if abs(determinant) <= room:  # for doubles it is anywhere
+        return (room, normal) if room else None
+    aside = cross(to, direction)
+    u, v = dot(other, aside) / determinant, -dot(one, aside) / determinant
+    return (dot(to, normal) / determinant, normal) if min(u, v, 1 - u - v) >= -room else None
+
+
+def weights(shape, point, face):
+    """The barycentric coordinates of a point of a triangle."""
+    a, b, c = (shape["places"][corner[0]] for corner in shape["triangles"][face])
+    whole = cross(subtract(b, a), subtract(c, a))
+    v = dot(cross(subtract(point, a), subtract(c, a)), whole) / dot(whole, whole)
+    w = dot(cross(subtract(b, a), subtract(point, a)), whole) / dot(whole, whole)
+    return 1 - v - w, v, w
+
+
+def mean_of_corners(shape, point, face, values):
+    """A value given at a triangle's corners, at a point of it."""
+    parts = zip(weights(shape, point, face), values)
+    return [sum(terms) for terms in zip(*[[w * x for x in value] for w, value in parts])]
+
+
+def shading_normal(shape, point, face):
+    """The normal of a smooth mesh at a point of a triangle, in its coordinates; None of all else."""
+    if shape["kind"] != "mesh" or not shape["smooth"]:
+        return None
+    return mean_of_corners(shape, point, face, shape["normals"][face])
+
+
+def longitude(x, z):
+    """From 0 to 1 about y, 1/2 at +z."""
+    return mpf(1) / 2 + mp.atan2(x, z) / (2 * mp.pi)
+
+
+def texture_coordinates(shape, point, face):
+    """(u, v) of a point of the surface, in the shape's coordinates."""
+    kind, (x, y, z), half = shape["kind"], point, mpf(1) / 2
+    if kind in ("sphere", "implicit"):
+        return longitude(x, z), mp.atan2(mp.hypot(x, z), y) / mp.pi
+    if kind in ("cylinder", "cone"):
+        return longitude(x, z), half - y / shape["height"]
+    if kind == "torus":
+        return longitude(x, z), half - mp.atan2(y, mp.hypot(x, z) - shape["major"]) / (2 * mp.pi)
+    if kind == "disk":
+        return half + x / (2 * shape["radius"]), half + z / (2 * shape["radius"])
+    if kind in ("plane", "quadric"):
+        return x, z
+    if kind == "mesh":
+        corners = shape["triangles"][face]
+        if any(corner[1] is None for corner in corners):
+            return ZERO, ZERO
+        return tuple(mean_of_corners(shape, point, face, [shape["texture"][corner[1]] for corner in corners]))
+    x, y, z = (p / extent for p, extent in zip(point, shape["size"]))
+    right = {0: z, 1: -z, 2: x, 3: x, 4: -x, 5: x}[face]
+    down = {2: -z, 3: z}.get(face, -y)
+    return half + right, half + down
+
+
 INTERSECTIONS = {"sphere": sphere, "box": box, "plane": plane, "disk": disk, "cylinder": cylinder,
-                 "cone": cone, "torus": torus, "quadric": quadric}
+                 "cone": cone, "torus": torus, "quadric": quadric, "mesh": mesh}
 
 
 def intersect(shape, start, direction):

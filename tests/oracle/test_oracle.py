@@ -12,13 +12,16 @@ import zlib
 from mpmath import mp, mpf
 
 import exr_reader
+from bodies import integrated
 from expression import evaluate, evaluate_precisely
-from minkowski import (along, angles_about_axes, apply, boost, dot, identity, inverse, multiply, norm,
+from glass import parted
+from meshes import read_obj
+from minkowski import (ONE, ZERO, along, angles_about_axes, apply, boost, dot, identity, inverse, multiply, norm,
                        rotation_about_axes, scaled, subtract, transpose, unit)
 from redescribe import redescribe
 from reference import Reference, relative_difference
 from scene_reader import Scene, load_document
-from shapes import intersect
+from shapes import intersect, shading_normal
 from toml_writer import document_text
 from tracer import Tracer
 
@@ -103,13 +106,85 @@ class Shapes(unittest.TestCase):
         self.assertEqual(sorted(h[0] for h in hits), [mpf(17) / 4, mpf(23) / 4])
 
 
+class Bodies(unittest.TestCase):
+    """Solids and meshes two ways, and integrals with closed forms."""
+
+    PARTS = [{"shape": "box", "size": [2, 1.5, 1.8], "rotate": [10, 20, 30]},
+             {"shape": "cylinder", "radius": 0.5, "height": 3, "position": [0.2, 0.1, 0], "scale": [1, 1, 0.8]},
+             {"shape": "torus", "major": 0.9, "minor": 0.3, "position": [0, 0.4, 0.2]}]
+
+    def test_solids_by_their_parts_and_by_steps(self):
+        start, direction = [ZERO, mpf("0.3"), mpf("0.1"), mpf(-6)], [-ONE, mpf("0.02"), mpf("0.03"), ONE]
+        for kind in ("union", "intersection", "difference"):
+            body = made(object=[{"shape": kind, "part": self.PARTS}]).objects[0].body
+            by_parts = body.roots(start, direction, None)
+            self.assertGreaterEqual(len(by_parts), 2)
+            body.radius, body.certain, body.rate = 3.0, True, body.whole.slope()
+            by_steps = body._walked(start, direction, None)
+            self.assertEqual(len(by_parts), len(by_steps))
+            for one, other in zip(by_parts, by_steps):
+                self.assertLess(abs(one[0] - other[0]), mpf(10) ** -40)
+                self.assertEqual(one[2][-1].number, other[2][-1].number)
+
+    def test_a_box_of_triangles(self):
+        corners = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+        faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "box.obj")
+            with open(path, "w", encoding="ascii") as stream:
+                stream.write("".join("v %d %d %d\n" % tuple(c) for c in corners))
+                stream.write("".join("f " + " ".join(str(n + 1) for n in face) + "\n" for face in faces))
+            shape = {"kind": "mesh"} | read_obj(path, True)
+        start, direction = [mpf("0.3"), mpf("-0.2"), mpf(-5)], [mpf("0.05"), mpf("0.1"), ONE]
+        box = {"kind": "box", "size": [mpf(2)] * 3}
+        found, expected = (sorted(intersect(s, start, direction), key=lambda hit: hit[0]) for s in (shape, box))
+        self.assertEqual(len(found), 2)
+        for one, other in zip(found, expected):
+            self.assertLess(abs(one[0] - other[0]), TINY)
+            self.assertLess(norm(subtract(unit(one[1]), other[1])), TINY)
+            normal = shading_normal(shape, along(start, direction, one[0]), one[2])  # a cube keeps its edges
+            self.assertLess(norm(subtract(unit(normal), other[1])), TINY)
+
+    def test_the_way_of_a_flow(self):
+        end = mpf("-3.7")
+        turned = integrated(lambda s, y: [y[1], -y[0]], [ZERO, ONE], end)
+        self.assertLess(abs(turned[0] - mp.sin(end)), mpf(10) ** -12)
+
+
+class Glass(unittest.TestCase):
+    """glass.py."""
+
+    def test_fresnel(self):
+        share, refracted = parted([ZERO, ZERO, ONE], [ZERO, ZERO, -ONE], ONE, mpf("1.5"))
+        self.assertLess(abs(share - mpf("0.04")), TINY)
+        self.assertEqual(refracted, [0, 0, 1])
+        slanted = unit([mpf("0.8"), ZERO, mpf("0.6")])
+        _, refracted = parted(slanted, [ZERO, ZERO, -ONE], ONE, mpf("1.6"))
+        self.assertLess(norm(subtract(refracted, [mpf("0.5"), ZERO, mp.sqrt(3) / 2])), TINY)
+        self.assertEqual(parted(slanted, [ZERO, ZERO, -ONE], mpf("1.6"), ONE), (1, None))
+
+    def test_a_slab_in_motion_leaves_the_ray_as_it_was(self):
+        scene = made(object=[{"shape": "box", "size": [9, 9, 1], "position": [0, 0, 4], "rotate": [20, 10, 0],
+                              "beta": [0.7, 0.1, -0.5], "material": {"glass": {"index": 1.5}}}])
+        tracer = Tracer(scene)
+        ray, glass = tracer.camera_ray(unit([mpf("-0.7"), mpf("-0.1"), ONE]), True)
+        hit = tracer.nearest(scene.camera.frame, scene.camera.event, ray, glass=glass)
+        for index in (ONE, mpf(1.5)):
+            self.assertEqual(hit.index, index)
+            _, on, glass = tracer.passed_on(hit, True)[0]
+            frame, hit = hit.obj.frame, tracer.nearest(hit.obj.frame, hit.event, on, mpf(10) ** -25, glass)
+        self.assertIsNone(hit)
+        after = tracer.carry(scene.camera.frame, frame, on)
+        self.assertLess(norm(subtract(after, ray)), mpf(10) ** -40)
+
+
 class Physics(unittest.TestCase):
     """Closed forms of docs/physics.md section 5."""
 
     def look(self, scene, direction):
         """The nearest hit along a looking direction."""
         tracer = Tracer(scene)
-        ray = tracer.camera_ray(unit([mpf(d) for d in direction]), True)
+        ray, _ = tracer.camera_ray(unit([mpf(d) for d in direction]), True)
         return tracer, tracer.nearest(scene.camera.frame, scene.camera.event, ray)
 
     def test_doppler_factor_of_a_receding_plane(self):
@@ -146,7 +221,7 @@ class Physics(unittest.TestCase):
     def test_white_surface_under_a_point_light(self):
         document = {"camera": {"direction": [0, -1, 0], "up": [0, 0, 1], "position": [0, 2, 0], "time": 0},
                     "light": [{"type": "point", "position": [0, 4, 0], "intensity": 8}],
-                    "object": [{"shape": "plane"}], "film": {"resolution": [1, 1]}}
+                    "object": [{"shape": "plane", "material": {"color": [1, 1, 1]}}], "film": {"resolution": [1, 1]}}
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.toml")
             with open(path, "w", encoding="utf-8") as stream:

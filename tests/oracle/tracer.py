@@ -3,8 +3,10 @@ from dataclasses import dataclass
 
 from mpmath import mp, mpf
 
+from bodies import body_point, own_time
+from glass import Glasses, is_glass
 from minkowski import ONE, ZERO, add, along, apply, boost, dot, scaled, subtract, unit
-from shapes import intersect
+from shapes import texture_coordinates
 
 # Roots this near the start of a shadow ray are the lit surface itself. The start is known to 1e-40.
 SELF = mpf(10) ** -25
@@ -18,13 +20,34 @@ class Hit:
     event: list      # (time; space), the object's frame
     ray: list        # traced four-vector n, in the frame of the matter, its axes carried by the pure boost
     normal: list     # unit, there, facing the ray
+    chain: tuple     # of parts, from the whole of the object to the one whose surface it is
     face: int
     celerity: list   # of the matter in the object's frame
     own_time: mpf    # of the matter, times c
+    point: list      # in the coordinates of the last of the chain
+    index: mpf       # of refraction, of what the ray came through
+    glass: object    # which that was; None: nothing
 
     def signature(self):
         """What must not change for neighbouring rays to see the same smooth piece of surface."""
-        return (self.obj.object_id, self.obj.copy, self.face)
+        return (self.obj.object_id, self.obj.copy, self.chain[-1].number, self.face, self.square())
+
+    @property
+    def material(self):
+        """That of the innermost part that has one."""
+        return next((part.material for part in reversed(self.chain) if part.material is not None), {})
+
+    def frequency(self):
+        """Of light that is seen along the ray, in the matter's frame, for one of 1 at the camera: 1/D."""
+        return abs(self.ray[0]) / self.index
+
+    def square(self):
+        """Which of the two colours of a checker it is; None without one."""
+        if "checker" not in self.material:
+            return None
+        size = mpf(self.material["checker"].get("size", 1))
+        u, v = texture_coordinates(self.chain[-1].shape, self.point, self.face)
+        return int(mp.floor(u / size) + mp.floor(v / size)) % 2
 
 
 def pixel_direction(camera, i, j):
@@ -75,6 +98,7 @@ class Tracer:
         for obj in scene.objects:
             self.by_frame.setdefault(id(obj.frame), (obj.frame, []))[1].append(obj)
         self._matrices = {}
+        self.glasses = Glasses(self)
 
     def carry(self, to, frm, vector):
         """Coordinates in frame `to` of a four-vector of frame `frm`."""
@@ -84,90 +108,110 @@ class Tracer:
             self._matrices[key] = [list(row) for row in zip(*columns)]
         return apply(self._matrices[key], vector)
 
-    def all_roots(self, frame, event, ray, end=None):
-        """(s, object, gradient, face, event, ray) of every crossing of a line with every object; of those in motion
-        only between 0 and `end`, without a gradient."""
+    def all_roots(self, frame, event, ray, end=None, wanted=lambda obj: True):
+        """(s, object, root, event, ray) of every crossing of a line with every object that is wanted; where they are
+        walked to, only those between 0 and `end`. A root is what Body.roots says."""
         world = frame.event_to_world(event)
         for other, objects in self.by_frame.values():
+            objects = [obj for obj in objects if wanted(obj)]
+            if not objects:
+                continue
             start = other.event_from_world(world)
             direction = self.carry(other, frame, ray)
             for obj in objects:
-                if obj.body:
-                    for s, face in obj.body.roots(start, direction, end):
-                        yield s, obj, None, face, start, direction
-                    continue
-                local_start = apply(obj.to_local, subtract(start[1:], obj.position))
-                local_direction = apply(obj.to_local, direction[1:])
-                for s, gradient, face in intersect(obj.shape, local_start, local_direction):
-                    yield s, obj, gradient, face, start, direction
+                for root in obj.body.roots(start, direction, end):
+                    if obj.visible is None or self._is_there(obj, root, start, direction):
+                        yield root[0], obj, root, start, direction
 
-    def nearest(self, frame, event, ray, least=ZERO):
-        """The hit with the smallest s > `least`, or None."""
-        best = min(((root[0], k, root) for k, root in enumerate(self.all_roots(frame, event, ray))
-                    if root[0] > least), default=None)
-        if best is None:
+    def _is_there(self, obj, root, start, direction):
+        """Whether an object that comes and goes is there at a crossing."""
+        event, chain = along(start, direction, root[0]), root[2]
+        own = own_time(chain, body_point(chain, event), event[0]) if obj.body.in_motion else event[0]
+        return self.scene.at_own_time(obj.visible, own) > 0
+
+    def nearest(self, frame, event, ray, least=ZERO, glass=None):
+        """The hit with the smallest s > `least` of a ray within a glass, or None. Of surfaces in one place, what is not
+        glass counts."""
+        found = [crossing for crossing in self.all_roots(frame, event, ray) if crossing[0] > least]
+        if not found:
             return None
-        s, obj, gradient, face, start, direction = best[2]
-        if obj.body:
-            return self._hit_in_motion(s, obj, face, start, direction)
-        normal = unit(apply([list(row) for row in zip(*obj.to_local)], gradient))
-        if dot(normal, direction[1:]) > 0:
-            normal = scaled(normal, -ONE)
-        event = along(start, direction, s)
-        return Hit(obj, s, event, direction, normal, face, [ZERO] * 3, event[0])
+        first = min(crossing[0] for crossing in found)
+        crossings = [c for c in found if c[0] < first + SELF]
+        opaque = [c for c in crossings if not is_glass(c[1])]
+        _, obj, root, start, direction = (opaque or crossings)[0]
+        return self.hit_at(obj, root, start, direction, glass)
 
-    def _hit_in_motion(self, s, obj, face, start, direction):
-        """The hit of matter that moves in its frame."""
+    def hit_at(self, obj, root, start, direction, glass=None):
+        """All that is to be known of a crossing of an object of a line in its frame."""
+        s, gradient, chain, face = root
         event = along(start, direction, s)
-        point, celerity, normal = obj.body.matter_at(event)
+        if gradient is not None and dot(gradient, direction[1:]) > 0:
+            gradient = scaled(gradient, -ONE)
+        point, celerity, normal = obj.body.matter_at(event, chain, face, gradient)
         ray = apply(boost(celerity), direction)
-        if dot(normal, ray[1:]) > 0:
+        if gradient is None and dot(normal, ray[1:]) > 0:
             normal = scaled(normal, -ONE)
-        return Hit(obj, s, event, ray, normal, face, celerity, obj.body.motion.own_time(point, event[0]))
+        clock = own_time(chain, point, event[0]) if obj.body.in_motion else event[0]
+        return Hit(obj, s, event, ray, normal, chain, face, celerity, clock, point,
+                   self.glasses.index(glass), glass)
 
-    def mirrored(self, hit, light):
-        """The traced four-vector that a mirror passes on, in the frame of its object: reflected in that of its matter.
-        Where no light travelled along the ray that met it (not `light`), light does from there on."""
-        space = along(hit.ray[1:], hit.normal, -2 * dot(hit.ray[1:], hit.normal))
-        ray = [hit.ray[0]] + space if light else [-ONE] + unit(space)
-        return apply(boost(scaled(hit.celerity, -ONE)), ray)
+    def passed_on(self, hit, light):
+        """[(shares of red, green and blue, traced four-vector in the frame of the object, the glass it is in)] of what
+        goes on from a mirror or from glass, in the frame of its matter (sections 11 and 12); what is refracted comes
+        first. Where no light travelled along the ray that met it (not `light`), light does from there on."""
+        looking, w = unit(hit.ray[1:]), hit.frequency() if light else ONE
+        if is_glass(hit.obj):
+            return [([share] * 3, ray, glass) for share, ray, glass in self.glasses.ways(hit, looking, w)]
+        if "mirror" not in hit.material:
+            return []
+        share = hit.material["mirror"]
+        share = self.scene.vector(share) if isinstance(share, list) else [self.scene.number(share)] * 3
+        space = along(looking, hit.normal, -2 * dot(looking, hit.normal))
+        ray = apply(boost(scaled(hit.celerity, -ONE)), [-hit.index * w] + scaled(space, w))
+        return [(share, ray, hit.glass)]
 
     def seen_in_mirror(self, hit, light):
-        """({values}, signature) of what is seen in a mirror, at the end of the way through all of them."""
+        """({values}, signature) of what is seen in a mirror or through glass, at the end of the way through them."""
         camera = self.scene.camera.frame
-        distance, signature = hit.s, ()
+        distance, signature = hit.index * hit.s, ()
         for _ in range(self.scene.bounces):
-            frame, event, ray = hit.obj.frame, hit.event, self.mirrored(hit, light)
+            on = self.passed_on(hit, light)
+            if not on:
+                break
+            frame, (_, ray, glass) = hit.obj.frame, on[0]
             light = True
-            hit = self.nearest(frame, event, ray, SELF)
+            hit = self.nearest(frame, hit.event, ray, SELF, glass)
             if hit is None:
                 sky = self.carry(self.scene.background_frame, frame, ray)
                 return {"mirrorD": [1 / abs(sky[0])]}, signature + ((0, 0, 0),)
             distance += hit.s * abs(self.carry(camera, frame, ray)[0])
             signature += (hit.signature(),)
-            if "mirror" not in hit.obj.material:
-                break
         world = hit.obj.frame.event_to_world(hit.event)
-        return {"mirrorZ": [distance], "mirrorD": [1 / abs(hit.ray[0])],
+        return {"mirrorZ": [distance], "mirrorD": [1 / hit.frequency()],
                 "mirrorT": [world[0] / self.scene.c]}, signature
 
-    def blocked(self, frame, event, ray, end):
-        """Whether anything lies on event + s ray for 0 < s < end (None: no end)."""
-        for s, *_ in self.all_roots(frame, event, ray, end):
-            if s > SELF and (end is None or s < end - SELF):
-                return True
-        return False
+    def light_left(self, frame, event, ray, end):
+        """The shares of red, green and blue of a lamp's light that come along event + s ray, 0 < s < end (None: no
+        end); None where something is in the way."""
+        shades = lambda obj: obj.casts_shadow
+        found = [crossing for crossing in self.all_roots(frame, event, ray, end, shades)
+                 if crossing[0] > SELF and (end is None or crossing[0] < end - SELF)]
+        if any(not is_glass(crossing[1]) for crossing in found):
+            return None
+        return self.glasses.leaves_of_lamp(frame, event, ray, found, end)
 
     def camera_ray(self, direction, light_delay):
-        """The traced four-vector of a looking direction, camera frame."""
-        return [-ONE if light_delay else ZERO] + list(direction)
+        """(traced four-vector of a looking direction, camera frame, the glass that it is in)."""
+        camera = self.scene.camera
+        glass = self.glasses.around(camera.frame, camera.event)
+        return [-self.glasses.index(glass) if light_delay else ZERO] + list(direction), glass
 
     def aovs(self, hit, light_delay):
         """The AOVs of a hit, in scene units (see the scene format contract, channels)."""
         world = hit.obj.frame.event_to_world(hit.event)
         return {
             "Z": [hit.s],
-            "doppler": [1 / abs(hit.ray[0]) if light_delay else ONE],
+            "doppler": [1 / hit.frequency() if light_delay else ONE],
             "emissionTime": [world[0] / self.scene.c],
             "properTime": [hit.own_time / self.scene.c],
             "P": hit.event[1:],
