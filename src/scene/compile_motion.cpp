@@ -38,6 +38,14 @@ bool place_uses_time(const Description& description, const Node& table) {
   return parts_use_time(description, table);
 }
 
+bool parts_flow(const Node& table) {
+  const Entry* parts = find(table, "part");
+  if (parts == nullptr || parts->node.array() == nullptr) return false;
+  return std::ranges::any_of(*parts->node.array(), [](const Node& part) {
+    return find(part, "matter_velocity") != nullptr || parts_flow(part);
+  });
+}
+
 /// Matter that flows together has no velocity of its parts: whether a table's blends are at rest in
 /// themselves.
 bool blends_move_as_a_whole(Compilation& c, const TableView& table) {
@@ -172,7 +180,8 @@ class MotionCompiler {
                                                  const Vec3& middle) const {
     const auto rotate = constants_of(whole.rotate), scale = constants_of(whole.scale);
     const bool is_whole = rotate && scale && !whole.rocket && !shape.motion && !is_infinite(shape);
-    if (!is_whole || parts_use_time(c_.values.description, *object_.node())) return std::nullopt;
+    const Node& table = *object_.node();
+    if (!is_whole || parts_use_time(c_.values.description, table) || parts_flow(table)) return std::nullopt;
     const auto path = WavePath::of(whole.position, 1.0 / c_.scene.c);
     if (!path || !path->is_straight() || path->is_still() || !(path->most_speed() < 1.0)) return std::nullopt;
     const Placement turned(Vec3{0.0}, *rotate, *scale);
