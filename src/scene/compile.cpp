@@ -305,9 +305,9 @@ std::optional<Scene> SceneCompiler::compile(const ImageRequest& request, Diagnos
   compile_sky(parts);
   compile_effects(parts);
   if (!diagnostics.has_errors()) foresee_brightness(parts);
-  if (!diagnostics.has_errors()) tell_of_mirrors(parts);
   if (!diagnostics.has_errors()) check_reach(parts);
   if (!diagnostics.has_errors()) check_camera_in_glass(parts);
+  if (!diagnostics.has_errors()) warn_of_matter_in_glass(parts);
   if (!diagnostics.has_errors()) warn_of_hidden_lamps(parts);
   if (!diagnostics.has_errors() && images_ == Images::several) return scene;
   forget();

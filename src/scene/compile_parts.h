@@ -36,12 +36,13 @@ void compile_effects(Compilation& c);
 /// nothing was wrong.
 void foresee_brightness(Compilation& c);
 
-/// Warns of what mirrors do not show; once for all images. After all the others, if nothing was wrong.
-void tell_of_mirrors(Compilation& c);
-
 /// Adds an error where the camera is in glass that moves relative to it, or one eye alone is. For a scene
 /// that is whole.
 void check_camera_in_glass(Compilation& c);
+
+/// Warns of matter that the camera sees in glass relative to which it moves: each pair once. For a scene that
+/// is whole.
+void warn_of_matter_in_glass(Compilation& c);
 
 /// Adds an error for things that move so fast relative to each other, or so far from the origin, that frames
 /// cannot be composed to what is promised. For a scene that is whole.

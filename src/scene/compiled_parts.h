@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "backlight/model/model_file.h"
@@ -62,7 +64,7 @@ struct CompiledParts {
   ObjectPlan objects;
   std::optional<SharedVector<Star>> stars;
   bool brightness_is_foreseen = false;
-  bool mirrors_are_told_of = false;
+  std::set<std::pair<int, int>> told_in_glass;  ///< what moves in which glass: objects
   std::optional<bool> lives_by_own_time;  ///< whether anything matter has goes by its own time; not asked yet
 };
 

@@ -117,31 +117,63 @@ Media media_at_camera(const Scene& scene, const std::vector<GlassSurface>& surfa
   return around_start(crossings);
 }
 
-// Of what stands on glass, its surface and the glass's are one, and which is met first is rounding: from just
-// before both, all are asked for.
-Contact contact_at(const Scene& scene, const SeenPoint& point, const Media& before, const Media& media) {
-  Contact contact{media};
-  const auto frame = static_cast<std::size_t>(point.hit.frame);
-  const SurfaceSet& surfaces = *scene.frames[frame].surfaces;
-  const double near = 2.0 * point.surface.error_bound;
-  const Vec3 start = point.surface.position + near * point.side;
-  const RayClock clock{point.time, 0.0};
+FramesBeside frames_beside(const Scene& scene, const std::vector<GlassSurface>& surfaces) {
+  FramesBeside beside(scene.frames.size());
+  for (const GlassSurface& glass : surfaces) {
+    auto& its = beside[static_cast<std::size_t>(glass.frame)];
+    if (!its.empty()) continue;
+    its.push_back({glass.frame, {}});
+    const InertialFrame& own = scene.frames[static_cast<std::size_t>(glass.frame)].motion;
+    for (std::size_t i = 0; i < scene.frames.size(); ++i) {
+      const InertialFrame& other = scene.frames[i].motion;
+      const bool rests = other.celerity == own.celerity && scene.frames[i].surfaces->size() > 0;
+      if (!rests || static_cast<int>(i) == glass.frame) continue;
+      const ExtendedEvent shift = to_frame(other, own.origin);
+      const Displacement<Rest> by{double(shift.t), shift.x.rounded()};
+      constexpr double roundings = 16.0 * std::numeric_limits<double>::epsilon();
+      its.push_back({static_cast<int>(i), by, roundings * glm::length(by.x)});
+    }
+  }
+  return beside;
+}
+
+namespace {
+
+// What of one frame stands on a point of glass. Its surface and the glass's are one, and which is met first
+// is rounding: from just before both, all are asked for.
+void add_contacts(const Scene& scene, const FrameBeside& beside, const SeenPoint& point, Contact& contact) {
+  const SurfaceSet& surfaces = *scene.frames[static_cast<std::size_t>(beside.frame)].surfaces;
+  const bool own = beside.frame == point.hit.frame;
+  const double near = 2.0 * (point.surface.error_bound + beside.doubt);
+  const Vec3 start = point.surface.position + beside.shift.x + near * point.side;
+  const RayClock clock{point.time + beside.shift.t, 0.0};
   for (int i = 0; i < static_cast<int>(surfaces.size()); ++i) {
-    if (i == point.hit.hit.surface) continue;
+    if (own && i == point.hit.hit.surface) continue;
     const BoundingSphere ball = surfaces.bounds(i);
     if (glm::length(start - ball.centre) > 1.001 * ball.radius + 4.0 * near) continue;
     const Hit hit = surfaces.first_crossing_of(i, start, -point.side, clock);
     if (!(hit.lambda <= 2.0 * near)) continue;
     const SurfacePoint there = surfaces.resolve(hit, start, -point.side, clock);
-    const Object& object = object_of(scene, point.hit.frame, i);
+    const Object& object = object_of(scene, beside.frame, i);
     const Glass* glass = scene.materials[static_cast<std::size_t>(object.material)].glass.get();
+    if (!own) contact.room = std::max(contact.room, near);
     if (glass == nullptr) {
       contact.opaque = i;
+      contact.frame = beside.frame;
     } else {
       contact.media =
-          beyond(contact.media, {point.hit.frame, i, glass}, glm::dot(there.normal, point.side) > 0.0);
+          beyond(contact.media, {beside.frame, i, glass}, glm::dot(there.normal, point.side) > 0.0);
     }
   }
+}
+
+}  // namespace
+
+Contact contact_at(const Scene& scene, const FramesBeside& beside, const SeenPoint& point,
+                   const Media& before, const Media& media) {
+  Contact contact{media};
+  for (const FrameBeside& frame : beside[static_cast<std::size_t>(point.hit.frame)])
+    add_contacts(scene, frame, point, contact);
   if (contact.opaque >= 0) contact.media = before;
   return contact;
 }

@@ -53,15 +53,29 @@ std::vector<GlassSurface> glass_surfaces(const Scene& scene);
 /// The glass that the camera is in: at rest to it, or the scene would not have been compiled.
 Media media_at_camera(const Scene& scene, const std::vector<GlassSurface>& surfaces, const Hub& hub);
 
+/// A frame that rests relative to another, whose bodies may touch those of that one.
+struct FrameBeside {
+  int frame = 0;
+  Displacement<Rest> shift;  ///< of an event's coordinates, from the other frame's to this one's
+  double doubt = 0.0;        ///< of that shift's places, by rounding
+};
+
+/// By frame index, of those with glass, themselves first.
+using FramesBeside = std::vector<std::vector<FrameBeside>>;
+FramesBeside frames_beside(const Scene& scene, const std::vector<GlassSurface>& surfaces);
+
 /// What begins where a surface of glass ends.
 struct Contact {
-  Media media;      ///< beyond it, and beyond glass that stands on it
-  int opaque = -1;  ///< a surface of the same frame that is not of glass and stands on it; or -1
+  Media media;        ///< beyond it, and beyond glass that stands on it
+  int opaque = -1;    ///< a surface that is not of glass and stands on it; or -1
+  int frame = -1;     ///< its frame
+  double room = 0.0;  ///< how far from the point, to either side, surfaces of other frames stand on it
 };
 
 /// `before`: what the ray comes through; `media`: what is beyond the surface of the point itself. What stands
 /// on glass is in optical contact: there is no gap that would reflect or refract.
-Contact contact_at(const Scene& scene, const SeenPoint& point, const Media& before, const Media& media);
+Contact contact_at(const Scene& scene, const FramesBeside& beside, const SeenPoint& point,
+                   const Media& before, const Media& media);
 
 /// What glass leaves of a lamp's light on its straight way to a seen point: shares of red, green and blue.
 /// Where colours shift those of coloured glass are filters instead, which are added to scratch.filters.

@@ -1,6 +1,8 @@
 // A ray's way through mirrors and glass, piece by piece.
 #pragma once
 
+#include <cstdint>
+
 #include "backlight/trace/tracer.h"
 #include "glass.h"
 
@@ -15,8 +17,9 @@ struct Leg {
   double gamma = 1.0;     ///< the product of those of the pieces before
   LorentzTransform<Rest, Rest> matter = {};  ///< from the relay's frame to the matter's that passed it on
   Media media = {};                          ///< what it goes through
-  int contact = -1;  ///< the opaque surface, of `frame`, that stands on the glass it left; or -1
-  int frame = 0;     ///< the relay's
+  int contact = -1;         ///< the opaque surface, of `frame`, that stands on the glass it left; or -1
+  int frame = -1;           ///< of that
+  std::uint64_t route = 0;  ///< by which surface it was passed on, and how: for escape.h
 };
 
 /// A leg that meets something that passes it on.
@@ -25,6 +28,28 @@ struct PassedOn {
   const SeenPoint& point;
   DopplerFactor<Camera, Rest> doppler;  ///< from the point's matter to the camera
   double gamma;                         ///< the product of those of all pieces so far
+};
+
+/// Sets a pointer for as long as this lives.
+template <class T>
+class Lent {
+ public:
+  Lent(T*& to, T& what) : to_(to) { to_ = &what; }
+  ~Lent() { to_ = nullptr; }
+  Lent(const Lent&) = delete;
+  Lent& operator=(const Lent&) = delete;
+
+ private:
+  T*& to_;
+};
+
+/// Asks that the ray which goes on from a mirror is not followed, but handed out: to go in a sheet with
+/// others.
+struct LegWanted {
+  const std::vector<bool>* relays;  ///< by frame: those whose rays go in sheets
+  int passed;                       ///< of the leg that meets the mirror
+  std::optional<Leg> leg = {};      ///< the one that goes on; none: it goes nowhere, or was followed
+  int frame = -1;                   ///< of its relay
 };
 
 }  // namespace backlight

@@ -4,10 +4,17 @@
 #include <string>
 #include <utility>
 
+#include "backlight/camera/sample_digits.h"
 #include "leg.h"
 
 namespace backlight {
 namespace {
+
+std::uint64_t route_after(const PassedOn& from, std::uint64_t how) {
+  const auto frame = static_cast<std::uint64_t>(from.point.hit.frame);
+  const auto surface = static_cast<std::uint64_t>(from.point.hit.hit.surface);
+  return mixed(mixed(2 * surface + how) + frame);
+}
 
 // How long a unit of λ is in the camera's frame, of light.
 double length_at_camera(const Leg& leg) {
@@ -47,6 +54,7 @@ Leg Tracer::camera_leg(const CameraRay& ray) const {
 void Tracer::find_glass() {
   auto glass = std::make_shared<std::vector<GlassSurface>>(glass_surfaces(*scene_));
   glass_ = glass;
+  beside_ = std::make_shared<const FramesBeside>(frames_beside(*scene_, *glass));
   if (glass->empty()) return;
   constexpr double half_step = 0.5 / 255.0 / 12.92;
   double brightest = 1.0;
@@ -70,6 +78,8 @@ void Tracer::find_glass() {
   }
   faintest_ = half_step / brightest;
   if (scene_->film.tolerance > 0.0) faintest_ = std::min(half_step, scene_->film.tolerance) / brightest;
+  const FrameView& sky = hub_.frames[static_cast<std::size_t>(scene_->sky.frame)];
+  faintest_star_ = std::min(faintest_, half_step / brightest_star(*scene_, sky, *wavelengths_));
   camera_media_ = std::make_shared<const std::vector<Medium>>(media_at_camera(*scene_, *glass, hub_));
 }
 
@@ -113,6 +123,7 @@ Leg Tracer::mirrored(const PassedOn& from, const RayInFrames& rays) const {
   Leg next = passed_on(from, turned, point.surface.error_bound * point.side, rays);
   next.media = from.leg.media;
   next.ray.index = index_of(next.media);
+  next.route = route_after(from, 0);
   return next;
 }
 
@@ -120,12 +131,14 @@ Leg Tracer::refracted(const PassedOn& from, const Vec3& way, const Contact& cont
                       const RayInFrames& rays) const {
   const SeenPoint& point = from.point;
   // What stands on the glass is met from this side of both, so that the ray cannot slip between them.
-  const double beyond = contact.opaque >= 0 ? 2.0 : -1.0;
-  Leg next = passed_on(from, way, beyond * point.surface.error_bound * point.side, rays);
+  const double error = point.surface.error_bound;
+  const double beyond = contact.opaque >= 0 ? std::max(2.0 * error, contact.room) : -error - contact.room;
+  Leg next = passed_on(from, way, beyond * point.side, rays);
   next.media = contact.media;
   next.ray.index = index_of(next.media);
   next.contact = contact.opaque;
-  next.frame = point.hit.frame;
+  next.frame = contact.frame;
+  next.route = route_after(from, 1);
   return next;
 }
 
@@ -150,7 +163,7 @@ void Tracer::require_rest_in_glass(const Leg& leg, const FirstHit& hit) const {
   const int frame = hit.found() ? hit.frame : scene_->sky.frame;
   const FrameView& view = hub.frames[static_cast<std::size_t>(frame)];
   const bool turns = hit.found() && view.scene->surfaces->moves(hit.hit.surface);
-  const bool seen = hit.found() || scene_->sky.emits;
+  const bool seen = hit.found() || scene_->sky.emits || !scene_->sky.stars.empty();
   if (!seen || (view.from_camera.is_identity() && !turns)) return;
   const std::string what = hit.found() ? name_of(object_of(*scene_, hit)) : "the background";
   throw std::runtime_error(what + " moves relative to the glass of " +
@@ -190,7 +203,8 @@ Leg Tracer::main_part(const PassedOn& from, const Material& material, const RayI
   const SeenPoint& point = from.point;
   const bool entering = glm::dot(point.side, point.surface.normal) > 0.0;
   const Medium of{point.hit.frame, point.hit.hit.surface, material.glass.get()};
-  const Contact contact = contact_at(*scene_, point, from.leg.media, beyond(from.leg.media, of, entering));
+  const Contact contact =
+      contact_at(*scene_, *beside_, point, from.leg.media, beyond(from.leg.media, of, entering));
   const Parting parting =
       part(-point.to_camera, point.normal, index_of(from.leg.media), index_of(contact.media));
   return parting.refracted ? refracted(from, *parting.refracted, contact, rays) : mirrored(from, rays);

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "escape.h"
 #include "leg.h"
 #include "shading_steps.h"
 
@@ -15,6 +16,25 @@ double gamma_of(const Leg& leg, const SeenPoint& point, const FrameView& view) {
   const Displacement<Rest> u =
       view.from_camera(Displacement<Camera>{leg.matter.gamma(), leg.matter.celerity()});
   return point.matter.gamma() * u.t - glm::dot(point.matter.celerity(), u.x);
+}
+
+// Whether the ray from this mirror is to go in a sheet: as lanes can weigh its light, by red, green and blue.
+bool is_wanted(const PassedOn& from, const Effects& effects, const Scratch& scratch) {
+  const LegWanted* wanted = scratch.leg_wanted;
+  if (wanted == nullptr || wanted->passed != from.leg.passed) return false;
+  const bool by_gamma = effects.brightness.arrival_rate == ArrivalRate::dilation;
+  return !by_gamma && from.leg.media.empty() && scratch.filters.empty() &&
+         (*wanted->relays)[static_cast<std::size_t>(from.point.hit.frame)];
+}
+
+// Whether the search goes on by this leg, which is then the last of its route so far.
+bool takes(EscapeSearch& search, const Leg& leg) {
+  const auto before = static_cast<std::size_t>(leg.passed - 1);
+  if (search.only != nullptr && (before >= search.only->size() || (*search.only)[before] != leg.route))
+    return false;
+  search.so_far.resize(before);
+  search.so_far.push_back(leg.route);
+  return true;
 }
 
 double largest(const LinearRgb& rgb) {
@@ -60,8 +80,17 @@ LinearRgb Tracer::colour_at(const Leg& leg, const FirstHit& hit, const Effects& 
   const Material* passing = nullptr;
   if (relays_.any() && hit.found() && passes_on(material_at(point))) passing = &material_at(point);
   LinearRgb sum{0.0};
-  if (passing != nullptr && !has_own_light(*passing)) {
-    // Nothing but what is passed on.
+  if (scratch.escapes != nullptr) {
+    if (hit.found() || leg.passed == 0) {
+      // Nothing but what is passed on.
+    } else {
+      const auto shift = shifted ? doppler : DopplerFactor<Camera, Rest>{};
+      scratch.escapes->found.push_back({scratch.escapes->so_far, glm::normalize(events.direction), shift,
+                                        radiance_factor(doppler, gamma, factors) * leg.weight,
+                                        scratch.filters});
+    }
+  } else if (passing != nullptr && !has_own_light(*passing)) {
+    // The same.
   } else if (!shifted) {
     // Light into the surface from its retarded event, shadow ray, reflection in the rest frame: (10)-(12).
     const Radiance<Rest> radiance =
@@ -87,6 +116,12 @@ LinearRgb Tracer::colour_mirrored(const PassedOn& from, const Colour& share, con
   Leg next = mirrored(from, scratch.rays);
   const bool coloured = shifted && !share.spectrum.is_grey();
   if (!coloured) next.weight *= share.rgb;
+  if (!coloured && is_wanted(from, effects, scratch)) {
+    if (!goes_on(next, scratch)) return LinearRgb{0.0};
+    scratch.leg_wanted->leg = next;
+    scratch.leg_wanted->frame = from.point.hit.frame;
+    return LinearRgb{0.0};
+  }
   if (coloured) scratch.filters.push_back({&share.spectrum, from.doppler.value});
   const LinearRgb colour = follow(next, effects, shifted, scratch);
   if (coloured) scratch.filters.pop_back();
@@ -99,16 +134,18 @@ LinearRgb Tracer::colour_parted(const PassedOn& from, const Glass& glass, const 
   const SeenPoint& point = from.point;
   const bool entering = glm::dot(point.side, point.surface.normal) > 0.0;
   const Medium of{point.hit.frame, point.hit.hit.surface, &glass};
-  const Contact contact = contact_at(*scene_, point, from.leg.media, beyond(from.leg.media, of, entering));
+  const Contact contact =
+      contact_at(*scene_, *beside_, point, from.leg.media, beyond(from.leg.media, of, entering));
   const Parting parting =
       part(-point.to_camera, point.normal, index_of(from.leg.media), index_of(contact.media));
   const double seen = largest(from.leg.weight);
+  const double faintest = scratch.escapes != nullptr ? faintest_star_ : faintest_;
   std::array<std::optional<Leg>, 2> parts;
-  if (parting.reflected * seen > faintest_) {
+  if (parting.reflected * seen > faintest) {
     parts[0] = mirrored(from, scratch.rays);
     parts[0]->weight *= parting.reflected;
   }
-  if (parting.refracted && (1.0 - parting.reflected) * seen > faintest_) {
+  if (parting.refracted && (1.0 - parting.reflected) * seen > faintest) {
     parts[1] = refracted(from, *parting.refracted, contact, scratch.rays);
     parts[1]->weight *= 1.0 - parting.reflected;
   }
@@ -119,13 +156,29 @@ LinearRgb Tracer::colour_parted(const PassedOn& from, const Glass& glass, const 
   return sum;
 }
 
-LinearRgb Tracer::follow(const Leg& leg, const Effects& effects, bool shifted, Scratch& scratch) const {
-  if (leg.weight == LinearRgb{0.0}) return LinearRgb{0.0};
+// No light of surfaces is asked for, so that this costs no more than finding the way.
+std::vector<Escape> Tracer::escapes(const CameraRay& ray, const Effects& effects, const Route* only,
+                                    Scratch& scratch) const {
+  EscapeSearch search{only};
+  scratch.rays.start(in_medium(ray));
+  const Lent lent(scratch.escapes, search);
+  colour_along(camera_leg(ray), first_hit(hub_, scratch.rays), effects, effects.doppler, scratch);
+  return std::move(search.found);
+}
+
+bool Tracer::goes_on(const Leg& leg, Scratch& scratch) const {
+  if (leg.weight == LinearRgb{0.0}) return false;
   if (leg.passed > scene_->film.bounces) {
-    ++scratch.counts.ended;
-    return LinearRgb{0.0};
+    if (scratch.escapes == nullptr) ++scratch.counts.ended;
+    return false;
   }
   ++scratch.counts.passed_on;
+  return true;
+}
+
+LinearRgb Tracer::follow(const Leg& leg, const Effects& effects, bool shifted, Scratch& scratch) const {
+  if (scratch.escapes != nullptr && !takes(*scratch.escapes, leg)) return LinearRgb{0.0};
+  if (!goes_on(leg, scratch)) return LinearRgb{0.0};
   return colour_along(leg, start(leg, scratch), effects, shifted, scratch);
 }
 

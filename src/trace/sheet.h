@@ -45,18 +45,35 @@ struct LaneFrame {
   double time = 0.0;   ///< ...in the frame's coordinates
 };
 
-/// Camera rays from one event.
+/// What rays that a mirror passed on have besides: CameraRay's length and offset.
+struct RayStarts {
+  alignas(64) double length[sheet_size];
+  alignas(64) double time[sheet_size];
+  alignas(64) double place[3][sheet_size];
+};
+
+/// Camera rays from one event; or, of a relay in the place of the camera (relays.h), rays that start nearby.
 struct SheetRays {
   int count = 0;
   int padded = 0;  ///< padded_count(count); the last ray is repeated
   bool light_delay = true;
+  bool displaced = false;  ///< whether they have starts of their own
   alignas(64) double direction[3][sheet_size];
+  RayStarts starts;
+
+  [[nodiscard]] const RayStarts* own_starts() const { return displaced ? &starts : nullptr; }
 };
 
 /// A Lens of the perspective projection.
 struct LaneLens {
   double foot_x, foot_y, step_x, step_y;  ///< film_of()
   double forward[3], right[3], up[3];
+};
+
+/// A ball in a frame.
+struct LaneBall {
+  double centre[3]{};
+  double radius = 0.0;
 };
 
 /// n·m >= h for the directions n that may meet something: docs/physics.md equation (15).
@@ -129,8 +146,11 @@ struct PointSheet {
   int whole = -1;              ///< the sheet of rays, all of whose hits these are; or -1:
   const double* direction[3];  ///< of the camera ray, camera frame: that sheet's or `gathered`
   const SheetHits* hits;       ///< what they meet: that sheet's or `gathered_hits`
+  /// Of rays that a mirror passed on: that sheet's or `gathered_starts`; else null.
+  const RayStarts* starts = nullptr;
   alignas(64) double gathered[3][sheet_size];
   SheetHits gathered_hits;
+  RayStarts gathered_starts;
   // Neighbours of one surface.
   struct Run {
     int surface;  ///< its number
@@ -272,6 +292,9 @@ struct SheetKernels {
   std::uint64_t (*same)(const double* numbers, int count, double which);
   /// Which rays are in the cone, one bit each; those of their registers in the frame, into `to`.
   std::uint64_t (*enter)(const LaneFrame& frame, const LaneCone& cone, const SheetRays& rays, RaySheet& to);
+  /// The same of rays with starts of their own, and a ball that they have to come near.
+  std::uint64_t (*enter_near)(const LaneFrame& frame, const LaneBall& ball, const SheetRays& rays,
+                              RaySheet& to);
   /// The camera rays of the points in their frame, into points.rays.
   void (*in_frame)(const LaneFrame& frame, PointSheet& points);
   /// What follows from points however found: `to_camera`, proper time, D, and the normal's side.

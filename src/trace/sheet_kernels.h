@@ -30,17 +30,35 @@ BACKLIGHT_LANES LaneNull<V> boosted(const LaneMotion& motion, LaneVec3<V> x, V l
   return {y, V(motion.gamma) * length + along};
 }
 
-/// in_frame() of trace/ray.h: direction, and minus the rate of time (1/D on the light cone).
+/// in_frame() of trace/ray.h: direction, and minus the rate of time (1/D on the light cone). `size`: |d|.
 template <class V>
-BACKLIGHT_LANES LaneNull<V> looking(const LaneFrame& frame, LaneVec3<V> d, bool light_delay) {
+BACKLIGHT_LANES LaneNull<V> looking(const LaneFrame& frame, LaneVec3<V> d, V size, bool light_delay) {
   const LaneMotion& motion = frame.from_camera;
-  if (light_delay) return boosted(motion, d, V(1.0));
+  if (light_delay) return boosted(motion, d, size);
   if (motion.identity) return {d, V(0.0)};
   const LaneVec3<V> w(motion.celerity);
   const V along = dot(w, d);
   LaneVec3<V> y = d + (along * V(motion.inverse_gamma_plus_one)) * w;
   if (motion.rotated) y = motion.rotation.times(y);
   return {y, along};
+}
+
+/// Where and when rays start in a frame, and how long their directions are in the camera's.
+template <class V>
+struct LaneStart {
+  LaneVec3<V> place;
+  V time, size;
+};
+/// `starts`: of rays that have their own; else null.
+template <class V>
+BACKLIGHT_LANES LaneStart<V> start_of(const LaneFrame& frame, const RayStarts* starts, int i) {
+  const LaneVec3<V> place(frame.origin);
+  const V time(frame.time);
+  if (starts == nullptr) return {place, time, V(1.0)};
+  // A displacement (t; x) is boosted as a null vector of the length -t is.
+  const LaneNull<V> moved =
+      boosted(frame.from_camera, load3<V>(starts->place, i), -V::load(starts->time + i));
+  return {place + moved.x, time + -moved.length, V::load(starts->length + i)};
 }
 
 template <class V>
@@ -304,9 +322,10 @@ struct KernelsOf {
     for (int i = 0; i < rays.padded; i += step) {
       const Mask hit = V::load(hits.who + i) >= V(0.0);
       if (bits(hit) == 0) continue;
-      const LaneNull<V> n = looking(lamp.frame, load3<V>(rays.direction, i), rays.light_delay);
+      const LaneStart<V> start = start_of<V>(lamp.frame, rays.own_starts(), i);
+      const LaneNull<V> n = looking(lamp.frame, load3<V>(rays.direction, i), start.size, rays.light_delay);
       const V lambda = select(hit, V::load(hits.lambda + i), V(0.0));
-      const V3 out = V3(lamp.frame.origin) + lambda * n.x - V3(lamp.position);
+      const V3 out = start.place + lambda * n.x - V3(lamp.position);
       const V size = length(out);
       if (axis == nullptr) {
         const Mask far = hit & (size > V(0.0));
@@ -314,7 +333,7 @@ struct KernelsOf {
         sum = sum + select(far, (V(1.0) / size) * out, none);
         continue;
       }
-      const V time = V(lamp.time_offset) + lambda * -n.length - size;
+      const V time = V(lamp.time_offset) + (start.time - V(lamp.frame.time)) + lambda * -n.length - size;
       const V cosine = dot(out, a) / size;
       // Not a number (a point at the lamp itself) counts as every direction.
       least = select(hit, select(cosine >= least, least, select(cosine < least, cosine, V(-1.0))), least);
@@ -369,15 +388,47 @@ struct KernelsOf {
       const unsigned inside = bits(dot(d, V3(cone.axis)) >= V(cone.level));
       if (inside == 0) continue;
       all |= static_cast<std::uint64_t>(inside) << i;
-      put_direction(looking(frame, d, rays.light_delay), rays.light_delay, to, i);
+      put_direction(looking(frame, d, V(1.0), rays.light_delay), rays.light_delay, to, i);
+    }
+    return all & first_bits(rays.count);
+  }
+
+  static BACKLIGHT_LANES void put_start(const LaneStart<V>& start, RaySheet& to, int i) {
+    store3(start.place, to.origin, i);
+    start.time.store(to.start_time + i);
+  }
+
+  static std::uint64_t enter_near(const LaneFrame& frame, const LaneBall& ball, const SheetRays& rays,
+                                  RaySheet& to) {
+    std::uint64_t all = 0;
+    to.padded = rays.padded;
+    to.one_origin = false;
+    const V3 centre(ball.centre);
+    for (int i = 0; i < rays.padded; i += N) {
+      const LaneStart<V> start = start_of<V>(frame, &rays.starts, i);
+      const LaneNull<V> n = looking(frame, load3<V>(rays.direction, i), start.size, true);
+      const V3 way = centre - start.place;
+      const V along = dot(way, n.x) / n.length;
+      const V square = dot(way, way);
+      // With room for the rounding of all of these, some thousand times.
+      const V room = V(1.001 * ball.radius) + V(1e-11) * (sqrt(square) + length(start.place));
+      const Mask near = (square - along * along <= room * room + V(1e-11) * square) & (along >= -room);
+      const unsigned inside = bits(near);
+      put_start(start, to, i);
+      put_direction(n, true, to, i);
+      all |= static_cast<std::uint64_t>(inside) << i;
     }
     return all & first_bits(rays.count);
   }
 
   static void in_frame(const LaneFrame& frame, PointSheet& p) {
     begin_rays(frame, p.padded, p.rays);
+    p.rays.one_origin = p.starts == nullptr;
     for (int i = 0; i < p.padded; i += N) {
-      put_direction(looking(frame, load3<V>(p.direction, i), p.light_delay), p.light_delay, p.rays, i);
+      const LaneStart<V> start = start_of<V>(frame, p.starts, i);
+      if (p.starts != nullptr) put_start(start, p.rays, i);
+      put_direction(looking(frame, load3<V>(p.direction, i), start.size, p.light_delay), p.light_delay,
+                    p.rays, i);
     }
   }
 
@@ -428,7 +479,8 @@ struct KernelsOf {
       const Mask outside = dot(normal, to_camera) >= V(0.0);
       const V3 seen = select(outside, surface, -surface);
       if (p.smooth) normal = load3<V>(p.points.shading_normal, i);
-      const V time = V(p.rays.start_time[0]) + V::load(p.hits->lambda + i) * V::load(p.rays.time_rate + i);
+      const V begin = p.starts == nullptr ? V(p.rays.start_time[0]) : V::load(p.rays.start_time + i);
+      const V time = begin + V::load(p.hits->lambda + i) * V::load(p.rays.time_rate + i);
       store3(select(outside, normal, -normal), p.points.normal, i);
       store3(to_camera, p.to_camera, i);
       store3(load3<V>(p.points.position, i) + V::load(p.points.error_bound + i) * seen, p.shadow.origin, i);
@@ -455,16 +507,18 @@ struct KernelsOf {
       const V lambda = V::load(p.hits->lambda + i);
       V relative, time;
       V3 place;
+      const LaneStart<V> start = start_of<V>(lamp.frame, p.starts, i);
       if (lamp.own_frame) {
         relative = lambda * V::load(p.rays.time_rate + i);
         time = V::load(p.shadow.start_time + i);
         place = load3<V>(p.points.position, i);
       } else {
-        const LaneNull<V> n = looking(lamp.frame, load3<V>(p.direction, i), p.light_delay);
+        const LaneNull<V> n = looking(lamp.frame, load3<V>(p.direction, i), start.size, p.light_delay);
         relative = lambda * -n.length;
-        time = V(lamp.frame.time) + relative;
-        place = V3(lamp.frame.origin) + lambda * n.x;
+        time = start.time + relative;
+        place = start.place + lambda * n.x;
       }
+      if (p.starts != nullptr) relative = relative + (start.time - V(lamp.frame.time));
       V3 way;
       V way_length, own_length;
       if (lamp.meet != nullptr) {
@@ -560,14 +614,15 @@ struct KernelsOf {
       const unsigned open = bits(V::load(p.lit + i) > V(0.0)) & static_cast<unsigned>(candidates >> i);
       if (open == 0) continue;
       all |= static_cast<std::uint64_t>(open) << i;
-      const LaneNull<V> n = looking(frame, load3<V>(p.direction, i), p.light_delay);
+      const LaneStart<V> start = start_of<V>(frame, p.starts, i);
+      const LaneNull<V> n = looking(frame, load3<V>(p.direction, i), start.size, p.light_delay);
       const LaneNull<V> k = boosted(from_light, load3<V>(p.way, i), V::load(p.way_length + i));
       const V lambda = V::load(p.hits->lambda + i);
-      store3(V3(frame.origin) + lambda * n.x, to.origin, i);
+      store3(start.place + lambda * n.x, to.origin, i);
       store3(k.x, to.direction, i);
       k.length.store(to.length + i);
       (-k.length).store(to.time_rate + i);
-      (V(frame.time) + lambda * -n.length).store(to.start_time + i);
+      (start.time + lambda * -n.length).store(to.start_time + i);
     }
     return all;
   }
@@ -629,6 +684,7 @@ struct KernelsOf {
             .gather = gather,
             .same = same,
             .enter = enter,
+            .enter_near = enter_near,
             .in_frame = in_frame,
             .face = face,
             .face_sky = face_sky,

@@ -35,17 +35,24 @@ Displacement<Camera> eye_offset(const CameraView& camera, int eye) {
   return {0.0, 0.5 * eye * camera.stereo->separation * camera.lens.right};
 }
 
-SheetScene::SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& kernels)
+SheetScene::SheetScene(const Tracer& tracer, const Hub& hub, const SheetKernels& kernels, From from)
     : kernels_(&kernels), hub_(&hub) {
-  list_entries(scene);
-  if (scene.camera.stereo) {
+  const Scene& scene = tracer.scene();
+  list_entries(scene, from);
+  if (from == From::relay) {
+    for (const Entry& entry : entries_) {
+      const BoundingSphere sphere = surfaces(entry).bounds();
+      balls_.push_back({{sphere.centre.x, sphere.centre.y, sphere.centre.z}, sphere.radius});
+    }
+  }
+  if (scene.camera.stereo && from == From::camera) {
     eyes_.push_back(view_of(scene, -1));
     eyes_.push_back(view_of(scene, +1));
   } else {
     eyes_.push_back(view_of(scene, 0));
   }
   // Lanes do not know what glass leaves of a lamp's light.
-  lit_in_lanes_.assign(hub.frames.size(), scene.lights.empty() || glass_surfaces(scene).empty());
+  lit_in_lanes_.assign(hub.frames.size(), scene.lights.empty() || tracer.shading().glass->empty());
   for (std::size_t i = 0; i < hub.lights.size(); ++i) {
     lamps_.push_back(view_of(scene, i));
     if (scene.lights[i].kind == LightKind::ambient) continue;
@@ -57,13 +64,17 @@ SheetScene::SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& k
   }
 }
 
-void SheetScene::list_entries(const Scene& scene) {
+bool SheetScene::suits_relay() const {
+  return std::ranges::none_of(entries_, &Entry::extended);
+}
+
+void SheetScene::list_entries(const Scene& scene, From from) {
   for (const int frame : hub_->occupied) {
     const FrameView& view = hub_->frames[static_cast<std::size_t>(frame)];
     const SurfaceSet& surfaces = *view.scene->surfaces;
     const int first = static_cast<int>(numbered_.size());
     Entry entry{frame, first, is_extended(view), false, false};
-    entry.travels = !entry.extended && surfaces.any_travels();
+    entry.travels = from == From::camera && !entry.extended && surfaces.any_travels();
     // Solids of several materials are a group each: which one a point has is not known before.
     std::unordered_map<int, int> group_of[4];
     for (int s = 0; s < static_cast<int>(surfaces.size()); ++s) {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "backlight/trace/hub.h"
+#include "backlight/trace/tracer.h"
 #include "sheet.h"
 
 namespace backlight {
@@ -43,7 +43,8 @@ struct Entry {
   int first_number = 0;        ///< the number of its surface 0: they are counted through all frames
   bool extended = false;       ///< of large γ, whose rays take extended precision: one ray at a time
   bool casts_shadows = false;  ///< any of its surfaces
-  bool travels = false;        ///< any of them goes along a path, and it is not extended
+  bool travels =
+      false;  ///< any goes along a path, it is not extended, and the camera's event bounds what is seen
 };
 
 /// A surface by its number.
@@ -70,9 +71,16 @@ struct LampView {
 
 class SheetScene {
  public:
-  SheetScene(const Scene& scene, const Hub& hub, const SheetKernels& kernels);
+  enum class From { camera, relay };  ///< whose hub it is: a relay has but one eye
+
+  SheetScene(const Tracer& tracer, const Hub& hub, const SheetKernels& kernels, From from);
 
   [[nodiscard]] const SheetKernels& kernels() const { return *kernels_; }
+  [[nodiscard]] const Hub& hub() const { return *hub_; }
+  /// Whether the rays that a relay passes on can go in sheets: no frame is of large γ relative to it.
+  [[nodiscard]] bool suits_relay() const;
+  /// Of a relay's: around the surfaces of an entry; of infinite radius if they have no bounds.
+  [[nodiscard]] const LaneBall& ball(std::size_t entry) const { return balls_[entry]; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
   [[nodiscard]] const Entry& entry(int index) const { return entries_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] const Numbered& numbered(int number) const {
@@ -101,7 +109,7 @@ class SheetScene {
   }
 
  private:
-  void list_entries(const Scene& scene);
+  void list_entries(const Scene& scene, From from);
   [[nodiscard]] EyeView view_of(const Scene& scene, int eye) const;
   [[nodiscard]] LampView view_of(const Scene& scene, std::size_t light) const;
   void put(const Scene& scene, std::size_t light, const Entry& entry, const BoundingSphere& sphere,
@@ -110,6 +118,7 @@ class SheetScene {
   const SheetKernels* kernels_;
   const Hub* hub_;
   std::vector<Entry> entries_;
+  std::vector<LaneBall> balls_;
   std::vector<Numbered> numbered_;
   struct Group {
     bool singly, moves;

@@ -28,8 +28,8 @@ void put_way(const LorentzTransform<To, From>& transform, double (&way)[3]) {
   for (int k = 0; k < 3; ++k) way[k] = w[k];
 }
 
-LaneCarriage carriage(const FrameView& frame, const Effects& effects, bool shifted) {
-  LaneCarriage result{lane_brightness(effects.towards_camera()), frame.from_camera.gamma(), {}, shifted};
+LaneCarriage carriage(const FrameView& frame, const BrightnessSwitches& on, bool shifted) {
+  LaneCarriage result{lane_brightness(on), frame.from_camera.gamma(), {}, shifted};
   put_way(frame.from_camera, result.way);
   return result;
 }
@@ -69,6 +69,11 @@ SheetScratch::SheetScratch(const SheetScene& scene, std::size_t lights, Instruct
   near_lamps.resize(scene.entries().size());
 }
 
+// Without light delay there are none to the camera; but from a mirror on there is light.
+const BrightnessSwitches& SheetShader::towards_camera(const Effects& effects) const {
+  return work_.legs.empty() ? effects.towards_camera() : effects.brightness;
+}
+
 CameraRay SheetShader::camera_ray_of(int lane) const {
   CameraRay ray;
   const PointSheet& p = work_.points;
@@ -87,7 +92,7 @@ const LaneLamp& SheetShader::lane_lamp(std::size_t light, int frame) const {
   lanes.frame = sheets_.eye(eye_).frames[static_cast<std::size_t>(lamp.frame)];
   lanes.to_surface = sheets_.lamp(light).to_frame[static_cast<std::size_t>(frame)];
   lanes.time_offset =
-      lanes.frame.time - tracer_.hub().frames[static_cast<std::size_t>(lamp.frame)].camera_event.t;
+      lanes.frame.time - sheets_.hub().frames[static_cast<std::size_t>(lamp.frame)].camera_event.t;
   lanes.own_frame = lamp.frame == frame;
   lanes.distant = lamp.kind == LightKind::distant;
   lanes.meet = lamp.motion ? meet_lamp : nullptr;
@@ -261,8 +266,8 @@ bool SheetShader::light_arrives(std::size_t index, const Effects& effects, const
   reflection.strength = light.strength;
   reflection.brightness = lane_brightness(effects.brightness);
   reflection.distant = light.kind == LightKind::distant;
-  reflection.gamma = tracer_.hub().lights[index].to_frame[frame()].gamma();
-  put_way(tracer_.hub().lights[index].to_frame[frame()], reflection.way);
+  reflection.gamma = sheets_.hub().lights[index].to_frame[frame()].gamma();
+  put_way(sheets_.hub().lights[index].to_frame[frame()], reflection.way);
   reflection.specular =
       material.specular <= 0.0 ? 0.0 : material.specular * (material.shininess + 2.0) / (2.0 * pi);
   reflection.shininess = material.shininess;
@@ -276,6 +281,7 @@ void SheetShader::shade_sky(const SheetRays& rays, std::uint64_t lanes, const Ef
   const auto frame = static_cast<std::size_t>(sky.frame);
   const bool shifted = tracer_.is_spectral() && effects.doppler;
   for (int k = 0; k < 3; ++k) p.direction[k] = rays.direction[k];
+  p.starts = rays.own_starts();
   p.padded = rays.padded;
   p.light_delay = rays.light_delay;
   sheets_.kernels().in_frame(sheets_.eye(eye_).frames[frame], p);
@@ -293,7 +299,7 @@ void SheetShader::shade_sky(const SheetRays& rays, std::uint64_t lanes, const Ef
     put(colour, p.rgb, lane);
   }
   p.moves = false;
-  sheets_.kernels().carry(carriage(tracer_.hub().frames[frame], effects, shifted), p);
+  sheets_.kernels().carry(carriage(sheets_.hub().frames[frame], towards_camera(effects), shifted), p);
 }
 
 void SheetShader::shade(const Effects& effects) {
@@ -322,7 +328,7 @@ void SheetShader::shade(const Effects& effects) {
     sheets_.kernels().add_light(reflection, p);
   }
   for (int k = 0; k < 3 && first; ++k) std::fill_n(p.rgb[k], p.padded, own[k]);
-  sheets_.kernels().carry(carriage(tracer_.hub().frames[frame()], effects, shifted), p);
+  sheets_.kernels().carry(carriage(sheets_.hub().frames[frame()], towards_camera(effects), shifted), p);
 }
 
 }  // namespace backlight

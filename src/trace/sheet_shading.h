@@ -4,11 +4,20 @@
 #include <cstdint>
 #include <span>
 
+#include "leg.h"
 #include "shading_steps.h"
 #include "shadow_packets.h"
 #include "sheet_scene.h"
 
 namespace backlight {
+
+/// A ray that a mirror passes on, until it goes in a sheet with others.
+struct PutOff {
+  Leg leg;
+  int frame;  ///< of the relay
+  const Effects* effects;
+  std::size_t place;  ///< that of the ray which met the mirror
+};
 
 /// Working memory of one thread, besides Scratch.
 struct SheetScratch {
@@ -21,6 +30,8 @@ struct SheetScratch {
     Bundle bundle;
     int place[sheet_size];  ///< index of the pixel in the tile
   };
+  std::vector<PutOff> legs;             ///< by place, of rays that a mirror passed on; empty of a camera's
+  std::vector<PutOff> put_off;          ///< the rays that mirrors pass on from these
   std::span<TileSheet> sheets;          ///< those in use...
   std::vector<TileSheet> sheet_memory;  ///< ...of these, which are not cleared between tiles
   RaySheet rays;                        ///< of one sheet in one frame
@@ -102,6 +113,7 @@ class SheetShader {
   [[nodiscard]] CameraRay camera_ray_of(int lane) const;
 
  private:
+  [[nodiscard]] const BrightnessSwitches& towards_camera(const Effects& effects) const;
   [[nodiscard]] const LaneLamp& lane_lamp(std::size_t light, int frame) const;
   void fill_shading_normals(const SurfaceSet& surfaces);
   bool find_celerities();

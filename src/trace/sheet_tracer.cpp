@@ -1,7 +1,9 @@
 // A tile of rays: made, asked what they meet, painted.
+// Longer than 400 lines: the painter of a tile is one class, which the rays that mirrors pass on share.
 #include "backlight/trace/sheet_tracer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "tile_rays.h"
 
@@ -13,13 +15,14 @@ using TileSheet = SheetScratch::TileSheet;
 // The colours of a tile, once it is known what its rays meet.
 class SheetPainter {
  public:
-  SheetPainter(const Tracer& tracer, const SheetScene& scene, int eye, TileAnswers wanted, SheetScratch& work,
-               Scratch& scratch, TileLight& light)
+  SheetPainter(const Tracer& tracer, const SheetScene& scene, const std::vector<bool>& relays, int eye,
+               TileAnswers wanted, SheetScratch& work, Scratch& scratch, TileLight& light)
       : tracer_(tracer),
         scene_(scene),
         eye_(eye),
         colours_(wanted.colours),
         records_(wanted.records),
+        relays_(relays),
         work_(work),
         scratch_(scratch),
         light_(light),
@@ -35,8 +38,8 @@ class SheetPainter {
   void paint(const Effects& effects) {
     sort(effects);
     if (work_.groups.empty()) return;
+    work_.points.light_delay = effects.light_delay || is_passed_on();
     shader_.begin_tile(effects);
-    work_.points.light_delay = effects.light_delay;
     if (colours_ && shader_.wants_packets()) {
       for_each_sheet([&] { shader_.collect(); });
       shader_.sift_packets();
@@ -127,13 +130,14 @@ class SheetPainter {
       return;
     }
     const auto frame = static_cast<std::size_t>(sky.frame);
-    if (!far && !records_ && !tracer_.hub().frames[frame].from_camera.is_robust()) {
+    if (!far && !records_ && !scene_.hub().frames[frame].from_camera.is_robust()) {
       shader_.shade_sky(sheet.rays, mask, *sheet.effects);
       const auto& rgb = work_.points.rgb;
       for (; mask != 0; mask &= mask - 1) {
         const int lane = __builtin_ctzll(mask);
-        light_.set_colour(static_cast<std::size_t>(sheet.place[lane]),
-                          {rgb[0][lane], rgb[1][lane], rgb[2][lane]});
+        const auto place = static_cast<std::size_t>(sheet.place[lane]);
+        const LinearRgb colour{rgb[0][lane], rgb[1][lane], rgb[2][lane]};
+        light_.set_colour(place, is_passed_on() ? work_.legs[place].leg.weight * colour : colour);
       }
       return;
     }
@@ -147,17 +151,35 @@ class SheetPainter {
   void one_ray(const TileSheet& sheet, int lane, const FirstHit& hit) {
     const auto place = static_cast<std::size_t>(sheet.place[lane]);
     const bool dark = !hit.found() && !tracer_.scene().sky.emits;
+    if (is_passed_on()) {
+      const Leg& leg = work_.legs[place].leg;
+      scratch_.rays.start(scene_.hub(), leg.ray);
+      light_.set_colour(place, dark ? LinearRgb{0.0} : colour_of(leg, hit, sheet, place));
+      return;
+    }
     const CameraRay ray = camera_ray_of(tracer_.scene(), sheet.rays, lane, eye_);
     if (colours_) {
       scratch_.rays.start(ray);
       if (hit.found()) ++scratch_.counts.single;
-      light_.set_colour(place, dark ? LinearRgb{0.0} : tracer_.colour_of(ray, hit, *sheet.effects, scratch_));
+      if (hit.hit.unresolved) ++scratch_.counts.unresolved;
+      light_.set_colour(place, dark ? LinearRgb{0.0} : colour_of(tracer_.camera_leg(ray), hit, sheet, place));
     }
     if (records_) {
       scratch_.rays.start(ray);
       light_.record[place] = tracer_.surface_of(ray, hit, scratch_);
     }
   }
+
+  // By the law, but for what goes on from a mirror, which is put off.
+  LinearRgb colour_of(const Leg& leg, const FirstHit& hit, const TileSheet& sheet, std::size_t place) {
+    LegWanted wanted{&relays_, leg.passed};
+    const Lent lent(scratch_.leg_wanted, wanted);
+    const LinearRgb colour = tracer_.colour_of(leg, hit, *sheet.effects, scratch_);
+    if (wanted.leg) work_.put_off.push_back({*std::move(wanted.leg), wanted.frame, sheet.effects, place});
+    return colour;
+  }
+
+  [[nodiscard]] bool is_passed_on() const { return !work_.legs.empty(); }
 
   // Adds lanes of a sheet to the points, as many as there is room for; returns the others.
   std::uint64_t gather(const SheetScratch::Part& part) {
@@ -173,11 +195,13 @@ class SheetPainter {
       p.whole = -1;
       for (int k = 0; k < 3; ++k) p.direction[k] = p.gathered[k];
       p.hits = &p.gathered_hits;
+      p.starts = sheet.rays.displaced ? &p.gathered_starts : nullptr;
     }
     for (; left != 0 && p.count < sheet_size; left &= left - 1, ++p.count) {
       const int lane = __builtin_ctzll(left);
       p.lane[p.count] = part.sheet * sheet_size + lane;
       for (int k = 0; k < 3; ++k) p.gathered[k][p.count] = sheet.rays.direction[k][lane];
+      if (p.starts != nullptr) gather_start(sheet.rays.starts, lane);
       p.gathered_hits.lambda[p.count] = sheet.hits.lambda[lane];
       p.gathered_hits.along[p.count] = sheet.hits.along[lane];
       p.gathered_hits.part[p.count] = sheet.hits.part[lane];
@@ -191,9 +215,18 @@ class SheetPainter {
     return left;
   }
 
+  void gather_start(const RayStarts& from, int lane) {
+    RayStarts& to = work_.points.gathered_starts;
+    const int i = work_.points.count;
+    to.length[i] = from.length[lane];
+    to.time[i] = from.time[lane];
+    for (int k = 0; k < 3; ++k) to.place[k][i] = from.place[k][lane];
+  }
+
   void take_whole(int index, const TileSheet& sheet) {
     PointSheet& p = work_.points;
     p.whole = index;
+    p.starts = sheet.rays.own_starts();
     for (int k = 0; k < 3; ++k) p.direction[k] = sheet.rays.direction[k];
     p.hits = &sheet.hits;
     for (int i = 0; i < sheet_size; ++i) p.lane[i] = index * sheet_size + i;
@@ -206,6 +239,9 @@ class SheetPainter {
     for (int i = p.count; i < p.padded; ++i) {
       for (auto& row : p.gathered) row[i] = row[p.count - 1];
       for (double* row : {p.gathered_hits.lambda, p.gathered_hits.along, p.gathered_hits.part})
+        row[i] = row[p.count - 1];
+      RayStarts& starts = p.gathered_starts;
+      for (double* row : {starts.length, starts.time, starts.place[0], starts.place[1], starts.place[2]})
         row[i] = row[p.count - 1];
     }
   }
@@ -251,8 +287,14 @@ class SheetPainter {
   }
 
   void put_colours() {
-    const PointSheet& p = work_.points;
-    const std::uint64_t unresolved = colours_ ? p.unresolved & first_bits(p.count) : 0;
+    PointSheet& p = work_.points;
+    for (int i = 0; i < p.count && is_passed_on(); ++i) {
+      const TileSheet& sheet = work_.sheets[static_cast<std::size_t>(p.lane[i] / sheet_size)];
+      const auto place = static_cast<std::size_t>(sheet.place[p.lane[i] % sheet_size]);
+      for (int k = 0; k < 3; ++k) p.rgb[k][i] = work_.legs[place].leg.weight[k] * p.rgb[k][i];
+    }
+    const bool camera = colours_ && !is_passed_on();
+    const std::uint64_t unresolved = camera ? p.unresolved & first_bits(p.count) : 0;
     scratch_.counts.unresolved += static_cast<std::uint64_t>(__builtin_popcountll(unresolved));
     if (p.whole >= 0 && !records_) {
       const int first = work_.sheets[static_cast<std::size_t>(p.whole)].place[0];  // of 64 neighbours
@@ -288,6 +330,7 @@ class SheetPainter {
   const SheetScene& scene_;
   int eye_;
   bool colours_, records_;
+  const std::vector<bool>& relays_;  // whose rays go in sheets
   SheetScratch& work_;
   Scratch& scratch_;
   TileLight& light_;
@@ -299,7 +342,22 @@ class SheetPainter {
 SheetTracer::SheetTracer(const Tracer& tracer, InstructionSet set)
     : tracer_(&tracer),
       instructions_(set),
-      scene_(std::make_unique<SheetScene>(tracer.scene(), tracer.hub(), sheet_kernels(set))) {}
+      scene_(
+          std::make_unique<SheetScene>(tracer, tracer.hub(), sheet_kernels(set), SheetScene::From::camera)) {
+  const Scene& scene = tracer.scene();
+  relays_in_sheets_.assign(scene.frames.size(), false);
+  relays_.resize(scene.frames.size());
+  if (!tracer.relays().any()) return;
+  constexpr std::size_t most = 20000;  // of relays times frames, for the memory
+  std::size_t made = 0;
+  for (std::size_t i = 0; i < scene.frames.size() && made + scene.frames.size() <= most; ++i) {
+    if (!passes_on(scene, scene.frames[i])) continue;
+    const Hub& hub = tracer.relays().of(static_cast<int>(i)).hub;
+    relays_[i] = std::make_unique<SheetScene>(tracer, hub, sheet_kernels(set), SheetScene::From::relay);
+    relays_in_sheets_[i] = relays_[i]->suits_relay();
+    made += scene.frames.size();
+  }
+}
 
 SheetTracer::~SheetTracer() = default;
 
@@ -348,9 +406,39 @@ std::size_t SheetTracer::trace_sheets(std::size_t count, int eye, TileAnswers wa
       light.covered[static_cast<std::size_t>(sheet.place[lane])] = 1;
     }
   }
+  work.legs.clear();
+  work.put_off.clear();
   find_hits(*tracer_, *scene_, eye, work, scratch);
-  SheetPainter(*tracer_, *scene_, eye, wanted, work, scratch, light).paint();
+  SheetPainter(*tracer_, *scene_, relays_in_sheets_, eye, wanted, work, scratch, light).paint();
+  pass_on(work, scratch, light);
   return rays;
+}
+
+// The sums are in the law's order: what is passed on is added last, from the end of the way to its beginning.
+void SheetTracer::pass_on(SheetScratch& work, Scratch& scratch, TileLight& light) const {
+  if (work.put_off.empty()) return;
+  work.legs.swap(work.put_off);
+  work.put_off.clear();
+  scratch.counts.passed_in_sheets += work.legs.size();
+  const auto relay = [](const PutOff& its) { return std::pair(its.frame, its.effects); };
+  if (!std::ranges::is_sorted(work.legs, {}, relay)) std::ranges::stable_sort(work.legs, {}, relay);
+  TileLight passed;
+  for (std::vector<double>& channel : passed.rgb) channel.assign(work.legs.size(), 0.0);
+  passed.covered.assign(work.legs.size(), 1);
+  for (std::size_t first = 0, next = 0; first < work.legs.size(); first = next) {
+    while (next < work.legs.size() && relay(work.legs[next]) == relay(work.legs[first])) ++next;
+    const SheetScene& scene = *relays_[static_cast<std::size_t>(work.legs[first].frame)];
+    make_rays(first, next - first, work);
+    find_hits(*tracer_, scene, 0, work, scratch);
+    SheetPainter(*tracer_, scene, relays_in_sheets_, 0, {true, false}, work, scratch, passed).paint();
+  }
+  std::vector<PutOff> legs;
+  legs.swap(work.legs);
+  pass_on(work, scratch, passed);
+  for (std::size_t i = 0; i < legs.size(); ++i)
+    light.set_colour(legs[i].place, light.colour(legs[i].place) + passed.colour(i));
+  legs.clear();
+  work.put_off.swap(legs);  // its memory
 }
 
 const char* SheetTracer::instructions() const {

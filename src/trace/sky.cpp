@@ -29,16 +29,35 @@ SeenStar seen(const Star& star, const Hub& hub, const Scene& scene, bool light_d
   return {glm::normalize(unrotated - k * w), {1.0}};
 }
 
-// Film colour of the star's irradiance in the camera's frame, in film Y times steradians.
+// The same in the camera's frame, in film Y times steradians.
 LinearRgb light_of(const Star& star, double illuminance, DopplerFactor<Camera, Rest> doppler, double gamma,
                    const Effects& effects, const WavelengthSet& wavelengths) {
   const double flux = flux_factor(doppler, gamma, effects.towards_camera());
   const DopplerFactor<Camera, Rest> shift = effects.doppler ? doppler : DopplerFactor<Camera, Rest>{};
-  const Spectrum body = Spectrum::blackbody(star.temperature).scaled(illuminance);
-  return flux * wavelength_density_factor(shift) * wavelengths.lights().at(body, shift.value)->film();
+  return flux * star_colour(star, illuminance, shift, {}, wavelengths);
 }
 
 }  // namespace
+
+LinearRgb star_colour(const Star& star, double illuminance, DopplerFactor<Camera, Rest> shift,
+                      const std::vector<Filter>& filters, const WavelengthSet& wavelengths) {
+  const Spectrum body = Spectrum::blackbody(star.temperature).scaled(illuminance);
+  const LinearRgb film = filters.empty() ? wavelengths.lights().at(body, shift.value)->film()
+                                         : integrate_film(body, shift.value, filters);
+  return wavelength_density_factor(shift) * film;
+}
+
+double brightest_star(const Scene& scene, const FrameView& sky, const WavelengthSet& wavelengths) {
+  const SharedVector<Star>& stars = scene.sky.stars;
+  if (stars.empty()) return 0.0;
+  const Star& star = *std::ranges::max_element(stars, {}, &Star::illuminance);
+  const auto& motion = sky.from_camera;
+  const DopplerFactor<Camera, Rest> ahead{motion.gamma() + glm::length(motion.celerity())};
+  const LinearRgb light = light_of(star, scene.sky.star_scale * star.illuminance, ahead, motion.gamma(),
+                                   scene.effects, wavelengths);
+  const Lens& lens = scene.camera.lens;
+  return std::max({light.r, light.g, light.b}) / pixel_solid_angle(lens, straight_ahead(lens));
+}
 
 LinearRgb sky_texel(const Sky& sky, double u, double v) {
   return sky.texture_scale * sky.texture->sample(u, v, TextureEdge::clamp);

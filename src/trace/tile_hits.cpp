@@ -12,6 +12,10 @@ class SheetSearch {
       : tracer_(tracer), scene_(scene), eye_(eye), work_(work), scratch_(scratch) {}
 
   void find() {
+    if (!work_.legs.empty()) {
+      find_from_relay();
+      return;
+    }
     const Bundle tile = around(work_.sheets);
     int listed = -1;  // whether tile_cones is for rays with light delay
     for (TileSheet& sheet : work_.sheets) {
@@ -31,6 +35,19 @@ class SheetSearch {
   }
 
  private:
+  // Rays that start apart: no cone bounds them, but each frame's surfaces have a ball.
+  void find_from_relay() {
+    for (TileSheet& sheet : work_.sheets) {
+      for (std::size_t i = 0; i < scene_.entries().size(); ++i) {
+        const Entry& entry = scene_.entries()[i];
+        const LaneFrame& frame = scene_.eye(eye_).frames[static_cast<std::size_t>(entry.frame)];
+        const std::uint64_t inside =
+            scene_.kernels().enter_near(frame, scene_.ball(i), sheet.rays, work_.rays);
+        if (inside != 0) scene_.surfaces(entry).nearest(work_.rays, inside, entry.first_number, sheet.hits);
+      }
+    }
+  }
+
   // The entries come in the order of their frames, so that of equal λ the first one wins.
   void ask(TileSheet& sheet, int index, const LaneCone& cone) {
     const Entry& entry = scene_.entry(index);

@@ -92,6 +92,7 @@ class SheetMaker {
     SheetRays& rays = sheet.rays;
     sheet.effects = &effects;
     rays.light_delay = effects.light_delay;
+    rays.displaced = false;
     const Lens& lens = scene_.camera.lens;
     const bool flat = lens.projection == Projection::perspective;
     if (!flat) keep_shown(lens, x, y, sheet);
@@ -149,6 +150,33 @@ void make_rays(const Scene& scene, const SheetKernels& kernels, std::span<const 
 void make_rays(const Scene& scene, const SheetKernels& kernels, std::span<const ImagePoint> points,
                SheetScratch& work) {
   SheetMaker(scene, kernels, work).make(points);
+}
+
+void make_rays(std::size_t first, std::size_t count, SheetScratch& work) {
+  const std::size_t sheets = (count + sheet_size - 1) / sheet_size;
+  if (work.sheet_memory.size() < sheets) work.sheet_memory.resize(sheets);
+  work.sheets = {work.sheet_memory.data(), sheets};
+  for (SheetScratch::TileSheet& sheet : work.sheets) {
+    SheetRays& rays = sheet.rays;
+    rays.count = static_cast<int>(std::min<std::size_t>(sheet_size, count));
+    rays.padded = padded_count(rays.count);
+    rays.light_delay = rays.displaced = true;
+    sheet.effects = work.legs[first].effects;
+    for (int lane = 0; lane < rays.padded; ++lane) {
+      const std::size_t place = first + static_cast<std::size_t>(std::min(lane, rays.count - 1));
+      const CameraRay& ray = work.legs[place].leg.ray;
+      sheet.place[lane] = static_cast<int>(place);
+      rays.starts.length[lane] = ray.length;
+      rays.starts.time[lane] = ray.offset.t;
+      for (int k = 0; k < 3; ++k) {
+        rays.direction[k][lane] = ray.direction[k];
+        rays.starts.place[k][lane] = ray.offset.x[k];
+      }
+    }
+    sheet.hits.clear(rays.padded);
+    first += static_cast<std::size_t>(rays.count);
+    count -= static_cast<std::size_t>(rays.count);
+  }
 }
 
 Bundle around(std::span<const SheetScratch::TileSheet> sheets) {

@@ -16,6 +16,9 @@ void make_rays(const Scene& scene, const SheetKernels& kernels, std::span<const 
 void make_rays(const Scene& scene, const SheetKernels& kernels, std::span<const ImagePoint> points,
                SheetScratch& work);
 
+/// The rays of `count` of work.legs, from `first` on: of one relay, with the same effects.
+void make_rays(std::size_t first, std::size_t count, SheetScratch& work);
+
 /// A bundle around those of all sheets.
 Bundle around(std::span<const SheetScratch::TileSheet> sheets);
 

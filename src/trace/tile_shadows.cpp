@@ -25,7 +25,7 @@ Vec3 vec(const double (&from)[3][sheet_size], int lane) {
 
 // Whether occluders go along paths of which the moments tell more.
 bool SheetShader::narrows(std::size_t light) const {
-  return sheets_.lamp(light).any_travels && effects_->light_delay;
+  return sheets_.lamp(light).any_travels && work_.points.light_delay;
 }
 
 // What may shade anything of the tile, where there are so many occluders that it helps to list them.
@@ -139,7 +139,7 @@ void SheetShader::try_entry(std::size_t light, int index, std::uint64_t candidat
   const Entry& entry = sheets_.entry(index);
   PointSheet& p = work_.points;
   const auto at = static_cast<std::size_t>(entry.frame);
-  if (entry.extended || tracer_.hub().lights[light].to_frame[at].is_robust()) {
+  if (entry.extended || sheets_.hub().lights[light].to_frame[at].is_robust()) {
     try_extended(light, entry.frame, candidates);
     return;
   }
@@ -169,7 +169,7 @@ void SheetShader::try_extended(std::size_t light, int frame, std::uint64_t candi
                                 vec(p.shadow.direction, i),
                                 {p.shadow.start_time[i], p.shadow.time_rate[i]},
                                 end};
-    if (is_shadowed_in(frame, tracer_.hub(), scratch_.rays, hit(i), tracer_.hub().lights[light], segment)) {
+    if (is_shadowed_in(frame, sheets_.hub(), scratch_.rays, hit(i), sheets_.hub().lights[light], segment)) {
       p.lit[i] = 0.0;
     }
   }
@@ -248,7 +248,7 @@ void SheetShader::shadow_of_distant(std::size_t light) {
   const PointSheet& p = work_.points;
   const LampTable& table = sheets_.lamp(light).bounded.table();
   const Light& lamp = tracer_.scene().lights[light];
-  const Vec3 from = tracer_.hub().frames[static_cast<std::size_t>(lamp.frame)].camera_event.x;
+  const Vec3 from = sheets_.hub().frames[static_cast<std::size_t>(lamp.frame)].camera_event.x;
   const Vec3 middle = vec(p.place, 0);
   const double time = p.relative_emission_time[0];
   double reach = 0.0;  // of the points' events from the first's

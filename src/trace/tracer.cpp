@@ -6,6 +6,7 @@
 
 #include "leg.h"
 #include "light_record.h"
+#include "passed_stars.h"
 #include "shading_steps.h"
 
 namespace backlight {
@@ -45,6 +46,8 @@ Tracer::Tracer(const Scene& scene, int wavelengths, const ModelPieces& pieces, S
       spectral_(wavelengths > 0),
       stars_(star_images(scene, hub_, *wavelengths_)) {
   find_glass();
+  if (relays_.any() && !scene.sky.stars.empty())
+    passed_stars_ = std::make_shared<const PassedStars>(scene, hub_, *wavelengths_, camera_is_in_glass());
   const bool at_rest = !spectral_ || any_without_shift(scene) || records_light(scene);
   if (spectral_ || (at_rest && RestColours::needs_spectra(scene))) {
     spectra_ = SceneSpectra(scene, *wavelengths_);
@@ -69,7 +72,12 @@ RayLight Tracer::light(const CameraRay& ray, const Effects& effects, Scratch& sc
 LinearRgb Tracer::colour_of(const CameraRay& ray, const FirstHit& hit, const Effects& effects,
                             Scratch& scratch) const {
   if (hit.hit.unresolved) ++scratch.counts.unresolved;
-  return colour_along(camera_leg(ray), hit, effects, spectral_ && effects.doppler, scratch);
+  return colour_of(camera_leg(ray), hit, effects, scratch);
+}
+
+LinearRgb Tracer::colour_of(const Leg& leg, const FirstHit& hit, const Effects& effects,
+                            Scratch& scratch) const {
+  return colour_along(leg, hit, effects, spectral_ && effects.doppler, scratch);
 }
 
 SurfaceRecord Tracer::surface(const CameraRay& ray, Scratch& scratch) const {
@@ -111,7 +119,12 @@ LinearRgb Tracer::stars(int x, int y, int eye, Scratch& scratch) const {
     scratch.rays.start(ray);
     if (!first_hit(hub_, scratch.rays).found()) sum += star->radiance;
   }
-  return sum;
+  if (passed_stars_ == nullptr) return sum;
+  const auto trace = [&](const ImagePoint& point, const Effects& effects, const Route* only) {
+    const auto ray = camera_ray(scene_->camera, point, effects, eye);
+    return ray ? escapes(*ray, effects, only, scratch) : std::vector<Escape>{};
+  };
+  return sum + passed_stars_->in_pixel(x, y, eye, trace);
 }
 
 std::optional<CameraRay> camera_ray(const CameraView& camera, const ImagePoint& point, const Effects& effects,

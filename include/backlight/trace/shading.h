@@ -13,13 +13,14 @@ namespace backlight {
 
 /// What was done for one image, for the statistics. Summed over threads at the end.
 struct RayCounts {
-  std::uint64_t primary = 0;     ///< camera rays
-  std::uint64_t single = 0;      ///< of those, which did not go in sheets: one at a time
-  std::uint64_t shadow = 0;      ///< segments to lamps that were tested
-  std::uint64_t data = 0;        ///< pixel-centre rays for the data channels alone
-  std::uint64_t passed_on = 0;   ///< rays that go on from a mirror
-  std::uint64_t ended = 0;       ///< of those, the ones that FilmSettings::bounces ended
-  std::uint64_t non_finite = 0;  ///< pixels with a NaN or an infinity
+  std::uint64_t primary = 0;           ///< camera rays
+  std::uint64_t single = 0;            ///< of those, which did not go in sheets: one at a time
+  std::uint64_t shadow = 0;            ///< segments to lamps that were tested
+  std::uint64_t data = 0;              ///< pixel-centre rays for the data channels alone
+  std::uint64_t passed_on = 0;         ///< rays that go on from a mirror
+  std::uint64_t passed_in_sheets = 0;  ///< of those, which went together
+  std::uint64_t ended = 0;             ///< of those, the ones that FilmSettings::bounces ended
+  std::uint64_t non_finite = 0;        ///< pixels with a NaN or an infinity
   /// Camera rays that see a root which could not be isolated to full precision (surface/implicit.h).
   std::uint64_t unresolved = 0;
   std::uint64_t roots = 0;  ///< of formulas, solved along rays of any kind
@@ -30,6 +31,7 @@ struct RayCounts {
     shadow += more.shadow;
     data += more.data;
     passed_on += more.passed_on;
+    passed_in_sheets += more.passed_in_sheets;
     ended += more.ended;
     non_finite += more.non_finite;
     unresolved += more.unresolved;
@@ -37,6 +39,9 @@ struct RayCounts {
     return *this;
   }
 };
+
+struct EscapeSearch;
+struct LegWanted;
 
 /// Working memory of one thread.
 struct Scratch {
@@ -54,6 +59,8 @@ struct Scratch {
   std::vector<Filter>
       filters;  ///< that shifted light goes through on its way to the camera: coloured mirrors
   ReflectedLight reflected;
+  EscapeSearch* escapes = nullptr;  ///< escape.h; or null: light is asked for
+  LegWanted* leg_wanted = nullptr;  ///< leg.h; or null: rays are followed to their ends
 };
 
 struct GlassSurface;

@@ -78,9 +78,14 @@ class SheetTracer {
   std::size_t trace_sheets(std::size_t count, int eye, TileAnswers wanted, SheetScratch& sheets,
                            Scratch& scratch, TileLight& light) const;
 
+  /// Adds the light of work.put_off.
+  void pass_on(SheetScratch& work, Scratch& scratch, TileLight& light) const;
+
   const Tracer* tracer_;
   InstructionSet instructions_;
   std::unique_ptr<const SheetScene> scene_;
+  std::vector<std::unique_ptr<const SheetScene>> relays_;  // by frame: as seen from those with mirrors
+  std::vector<bool> relays_in_sheets_;                     // whose rays go in sheets
 };
 
 }  // namespace backlight

@@ -17,6 +17,15 @@ Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray);
 /// The same with scratch.shift on the way.
 LinearRgb sky_shifted(const ShadingContext& context, const Radiance<Rest>& radiance, Scratch& scratch);
 
+/// Film colour of a star's irradiance, `illuminance` at rest, with its colours shifted so and under filters:
+/// the density per unit wavelength is in it, the factor on the flux is not.
+LinearRgb star_colour(const Star& star, double illuminance, DopplerFactor<Camera, Rest> shift,
+                      const std::vector<Filter>& filters, const WavelengthSet& wavelengths);
+
+/// About the greatest film value of a star in a pixel of the picture's middle, by whatever way its light
+/// comes.
+double brightest_star(const Scene& scene, const FrameView& sky, const WavelengthSet& wavelengths);
+
 /// A star as the camera has it.
 struct StarImage {
   int x = 0;  ///< pixel of the full image

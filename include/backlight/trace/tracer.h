@@ -43,9 +43,12 @@ struct RayLight {
 };
 
 struct Contact;
+struct Escape;
+struct FrameBeside;
 struct Leg;
 struct Medium;
 struct PassedOn;
+class PassedStars;
 
 /// Traces rays of one image. Immutable; each thread brings its own Scratch.
 class Tracer {
@@ -66,6 +69,11 @@ class Tracer {
   LinearRgb colour_of(const CameraRay& ray, const FirstHit& hit, const Effects& effects,
                       Scratch& scratch) const;
 
+  /// The light along any piece of a ray's way (leg.h), with scratch.rays begun on it.
+  LinearRgb colour_of(const Leg& leg, const FirstHit& hit, const Effects& effects, Scratch& scratch) const;
+  /// The first piece.
+  [[nodiscard]] Leg camera_leg(const CameraRay& ray) const;
+
   /// What the ray meets.
   SurfaceRecord surface(const CameraRay& ray, Scratch& scratch) const;
 
@@ -78,11 +86,13 @@ class Tracer {
   void add_light(const CameraRay& ray, const Effects& effects, SurfaceRecord& record,
                  std::vector<double>& times, Scratch& scratch) const;
 
-  /// The stars of pixel (x, y) of the full image that no object hides from this eye.
+  /// The stars of pixel (x, y) of the full image that no object hides from this eye, and those that it sees
+  /// there in mirrors and through glass.
   LinearRgb stars(int x, int y, int eye, Scratch& scratch) const;
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Hub& hub() const { return hub_; }
+  [[nodiscard]] const Relays& relays() const { return relays_; }
   [[nodiscard]] const RestColours& rest_colours() const { return rest_colours_; }
   [[nodiscard]] ShadingContext shading() const {
     return {scene_, &hub_, &rest_colours_, wavelengths_, &spectra_, glass_.get()};
@@ -90,7 +100,7 @@ class Tracer {
   /// Whether the camera is in glass: its rays are then no light rays, and not for sheets.
   [[nodiscard]] bool camera_is_in_glass() const;
   [[nodiscard]] bool is_spectral() const { return spectral_; }
-  [[nodiscard]] bool has_stars() const { return !stars_.empty(); }
+  [[nodiscard]] bool has_stars() const { return !stars_.empty() || passed_stars_ != nullptr; }
 
  private:
   // path.cpp: the colour along a leg of a ray's way, of which it is known what it meets first.
@@ -102,11 +112,13 @@ class Tracer {
                             Scratch& scratch) const;
   LinearRgb colour_parted(const PassedOn& from, const Glass& glass, const Effects& effects, bool shifted,
                           Scratch& scratch) const;
+  std::vector<Escape> escapes(const CameraRay& ray, const Effects& effects,
+                              const std::vector<std::uint64_t>* only, Scratch& scratch) const;
+  bool goes_on(const Leg& leg, Scratch& scratch) const;
   LinearRgb follow(const Leg& leg, const Effects& effects, bool shifted, Scratch& scratch) const;
 
   // passing.cpp: how a ray goes on.
   [[nodiscard]] CameraRay in_medium(CameraRay ray) const;
-  [[nodiscard]] Leg camera_leg(const CameraRay& ray) const;
   [[nodiscard]] Leg passed_on(const PassedOn& from, const Vec3& way, const Vec3& beyond,
                               const RayInFrames& rays) const;
   [[nodiscard]] Leg mirrored(const PassedOn& from, const RayInFrames& rays) const;
@@ -123,14 +135,17 @@ class Tracer {
   const Scene* scene_;
   Hub hub_;
   Relays relays_;
-  std::shared_ptr<const std::vector<GlassSurface>> glass_;   // of the scene
-  std::shared_ptr<const std::vector<Medium>> camera_media_;  // that the camera is in
-  double faintest_ = 0.0;  // weight of what glass passes on that is still followed
+  std::shared_ptr<const std::vector<GlassSurface>> glass_;               // of the scene
+  std::shared_ptr<const std::vector<std::vector<FrameBeside>>> beside_;  // glass.h
+  std::shared_ptr<const std::vector<Medium>> camera_media_;              // that the camera is in
+  double faintest_ = 0.0;       // weight of what glass passes on that is still followed
+  double faintest_star_ = 0.0;  // the same where stars are looked for
   RestColours rest_colours_;
   const WavelengthSet* wavelengths_;
   SceneSpectra spectra_;  // where colours are shifted
   bool spectral_;
   std::vector<StarImage> stars_;
+  std::shared_ptr<const PassedStars> passed_stars_;  // where there are stars and what passes their light on
 };
 
 /// The ray through an image point (pixels of the full image); empty where the projection shows nothing.
