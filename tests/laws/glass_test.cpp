@@ -302,7 +302,8 @@ TEST(Glass, ThatTouchesGlassOfItsIndexMakesNoEdge) {
   const auto half = [&](const std::string& x) {
     return "[[object]]\nshape = \"box\"\nsize = [1, 2, 2]\nposition = [" + x + ", 0.3, 0]\n" + moves + glass;
   };
-  const std::string moving_one = one + "position = [0, 0.3, 0]\n" + moves, moving_two = half("-0.4") + half("0.4");
+  const std::string moving_one = one + "position = [0, 0.3, 0]\n" + moves,
+                    moving_two = half("-0.4") + half("0.4");
   for (const auto& [whole, things] :
        {std::pair{one, two}, std::pair{one, within}, std::pair{moving_one, moving_two}}) {
     const Rendering a = picture(whole), b = picture(things);

@@ -192,7 +192,8 @@ TEST(PassedStars, ShineInAMirrorBallEvenlyToAllSides) {
       const Spectrum body = Spectrum::blackbody(star.temperature).scaled(sky.star_scale * star.illuminance);
       all += wavelength_set(default_wavelength_count).lights().at(body, 1.0)->film().g;
     }
-    // Of those within some degrees of what is right behind the ball, the rim's last eighth of a pixel lacks some.
+    // Of those within some degrees of what is right behind the ball, the rim's last eighth of a pixel lacks
+    // some.
     EXPECT_NEAR(sum / (all / (4.0 * distance * distance)), 0.98, 0.02);
   }
 }
