@@ -112,10 +112,18 @@ TEST(MatterVelocity, OfARigidMotionIsThatOfTheBody) {
   // Within a body that goes its own way, the velocities in it come on top.
   const std::string round = "x^2 + 2*y^2 + z^2 - 1";
   const std::string way = "position = [\"0.3*sin(t)\", 0.1, \"0.1*t\"]\nscale = [1, 0.9, 1]\n";
+  const std::string bounded = "bounds = [[-1.3, -1.3, -1.3], [1.3, 1.3, 1.3]]\n";
   const std::string whirl = "matter_velocity = [\"0.5*z\", \"0\", \"-0.5*x\"]\n";
   expect_same(match(render_text(stage() + implicit(round, rotate + way)),
                     render_text(stage() + implicit(round, whirl + way))),
               "turning on its way");
+  const auto part = [](const std::string& keys, const std::string& more) {
+    return "[[object]]\nshape = \"union\"\n" + more + "[[object.part]]" + keys.substr(keys.find('\n'));
+  };
+  const std::string straight = "position = [\"0.3*t\", 0.1, 0]\n";
+  expect_same(match(render_text(stage() + part(implicit(round, bounded + rotate), straight)),
+                    render_text(stage() + part(implicit(round, bounded + whirl), straight))),
+              "turning in what goes straight on");
   // Neither alone is faster than light.
   const std::string fast = "matter_velocity = [\"0.7*z\", \"0\", \"-0.7*x\"]\n";
   const std::string faster = implicit(round, fast + "position = [\"0.5*sin(t)\", 0, 0]\n");
