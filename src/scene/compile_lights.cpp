@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "compile_motion.h"
@@ -53,9 +54,13 @@ Vec3 read_direction(const TableView& table) {
   return direction / length;
 }
 
-SpotCone read_cone(const TableView& table) {
+SpotCone read_cone(const TableView& table, double c) {
   SpotCone cone;
-  if (table.has_valid("direction")) cone.axis = read_direction(table);
+  if (const auto turning = table.vector_in_own_time("direction")) {
+    cone.turning = std::make_shared<const TurningAxis>(TurningAxis{*turning, c});
+  } else if (table.has_valid("direction")) {
+    cone.axis = read_direction(table);
+  }
   cone.half_angle = table.number("angle") * (std::numbers::pi / 360.0);
   cone.edge = table.number("edge");
   return cone;
@@ -84,7 +89,7 @@ void compile_light(Compilation& c, const Node& node) {
     light.kind = LightKind::ambient;
     read_strength(table, "radiance", light);
   } else {
-    if (type == "spot") light.cone = read_cone(table);
+    if (type == "spot") light.cone = read_cone(table, c.scene.c);
     read_strength(table, "intensity", light);
   }
   const auto& aovs = c.scene.film.aovs;

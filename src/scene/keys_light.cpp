@@ -59,10 +59,12 @@ std::vector<KeyTable> light_types() {
        "A point light whose light leaves within a cone, in the lamp's own frame. Of a lamp in motion the "
        "cone is "
        "seen by others as aberration has it: narrower ahead, wider behind.",
-       {numbers(
+       {own(numbers(
             "direction", 3, Required{}, "",
-            "The cone's axis, in the lamp's rest frame; of any length but zero. A lamp on a path or with a "
-            "`rocket` keeps it, along the axes of its frame carried by the pure boost to its velocity."),
+            "The cone's axis, in the lamp's rest frame; of any length but zero. Formulas of `t` turn it, as "
+            "a "
+            "lighthouse's; while they are all zero it is dark. A lamp on a path or with a "
+            "`rocket` keeps it, along the axes of its frame carried by the pure boost to its velocity.")),
         number("angle", 60.0, "degrees", "The full angle of the cone, beyond which it is dark.",
                {.least = 0, .greatest = 360, .above_least = true}),
         number("edge", 0.0, "",

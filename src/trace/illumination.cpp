@@ -48,7 +48,7 @@ Vec3 LampMoment::leaving() const {
 }
 
 double LampMoment::strength_time(const Light& light) const {
-  if (!light.flickers && !light.tells_time) return time;
+  if (!light.has_clock()) return time;
   return light.motion->own_time(light.motion->centre(time).place, time, Mat3(1.0));
 }
 
@@ -176,7 +176,7 @@ std::optional<Arrival> arrival(const Hub& hub, RayInFrames& rays, const SeenPoin
   if (!(a.cosine > 0.0)) return std::nullopt;
   const auto lamp = boost_by<Source, Source>(way.velocity);
   if (light.cone) {
-    a.share = light.cone->share(light.motion ? -lamp(way.direction).x : -way.direction.x);
+    a.share = light.cone->share(light.motion ? -lamp(way.direction).x : -way.direction.x, way.emission_time);
     if (!(a.share > 0.0)) return std::nullopt;
   }
   a.doppler = {k.length / (light.motion ? lamp(way.direction).length : way.direction.length)};

@@ -43,7 +43,7 @@ void meet_lamp(const Light& light, int count, const double (*place)[8], const do
     meeting.length[i] = moment.direction.length;
     meeting.own_length[i] = moment.own_length();
     meeting.time[i] = moment.strength_time(light);
-    meeting.share[i] = light.cone ? light.cone->share(moment.leaving()) : 1.0;
+    meeting.share[i] = light.cone ? light.cone->share(moment.leaving(), meeting.time[i]) : 1.0;
   }
 }
 
@@ -205,7 +205,7 @@ void SheetShader::fill_strength(const Light& light) {
     p.strength[i] = strength_at(light, time[i], tracer_.scene().c);
     if (light.cone) {
       const Vec3 leaving = -Vec3{p.way[0][i], p.way[1][i], p.way[2][i]};
-      p.strength[i] *= light.motion ? p.spot_share[i] : light.cone->share(leaving);
+      p.strength[i] *= light.motion ? p.spot_share[i] : light.cone->share(leaving, time[i]);
     }
     if (p.strength[i] == 0.0 && light.kind != LightKind::ambient) p.lit[i] = 0.0;
   }

@@ -60,17 +60,18 @@ Emission emission_of(const std::function<Vec3(double)>& place, const Vec3& point
 }
 
 // Of every pixel, what a spot lamp gives by what a point lamp gives there, and the own time at which it did.
+// `axis` is a function of the own time.
 void expect_cone(const std::string& motion, const std::string& cone, const std::function<Vec3(double)>& place,
-                 const Vec3& axis, double angle, double edge, const std::function<double(double)>& own_time,
-                 const std::string& effects) {
+                 const std::function<Vec3(double)>& axis, double angle, double edge,
+                 const std::function<double(double)>& own_time, const std::string& effects) {
   const Rendering spot = render_text(floor_under("type = \"spot\"\n" + motion + cone, effects));
   const Rendering point = render_text(floor_under(motion, effects));
   int lit = 0, faded = 0, dark = 0;
   for (int y = 0; y < spot.height(); ++y) {
     for (int x = 0; x < spot.width(); ++x) {
       const Emission sent = emission_of(place, spot.position(x, y), spot.at("emissionTime.T", x, y));
-      const double share =
-          share_of(angle_between(aberrated(sent.direction, sent.velocity), axis), angle, edge);
+      const Vec3 leaving = aberrated(sent.direction, sent.velocity);
+      const double share = share_of(angle_between(leaving, axis(own_time(sent.time))), angle, edge);
       for (const char* channel : {"R", "G", "B"}) {
         const double whole = point.at(channel, x, y);
         ASSERT_NEAR(spot.at(channel, x, y), share * whole, 1.5e-3 * whole + 1e-7) << x << ", " << y;
@@ -93,13 +94,17 @@ void expect_cone(const std::string& motion, const std::string& cone, const std::
   EXPECT_EQ(spot.statistics.rays.non_finite, 0U);
 }
 
+std::function<Vec3(double)> always(const Vec3& axis) {
+  return [axis](double) { return axis; };
+}
+
 const char* const three_colours = "[effects]\ndoppler = false\n";
 
 TEST(SpotLamp, ShinesIntoItsCone) {
   const Vec3 place{0.5, 4.0, -1.0};
   expect_cone(
       "position = [0.5, 4, -1]\n", "direction = [0.2, -2, 0.4]\nangle = 70\nedge = 0.4\n",
-      [&](double) { return place; }, {0.2, -2.0, 0.4}, 70.0, 0.4, [](double t) { return t; }, "");
+      [&](double) { return place; }, always({0.2, -2.0, 0.4}), 70.0, 0.4, [](double t) { return t; }, "");
 }
 
 // The cone is one in the lamp's frame: on the floor it is where aberration brings it, ahead of the lamp.
@@ -118,7 +123,7 @@ TEST(SpotLamp, InMotionHasAnAberratedCone) {
     for (const char* effects : {"", three_colours}) {
       expect_cone(
           starts, "direction = [0.1, -1, 0.2]\nangle = 100\nedge = 0.5\n",
-          [&](double t) { return start + t * v; }, {0.1, -1.0, 0.2}, 100.0, 0.5,
+          [&](double t) { return start + t * v; }, always({0.1, -1.0, 0.2}), 100.0, 0.5,
           [&](double t) { return t / gamma; }, effects);
     }
   }
@@ -134,7 +139,35 @@ TEST(SpotLamp, OnAPathKeepsItsAxis) {
       [&](double t) {
         return Vec3{radius * std::cos(rate * t), 4.0, radius * std::sin(rate * t)};
       },
-      {0.1, -1.0, 0.0}, 90.0, 0.6, [&](double t) { return t * std::sqrt(1.0 - speed * speed); }, "");
+      always({0.1, -1.0, 0.0}), 90.0, 0.6, [&](double t) { return t * std::sqrt(1.0 - speed * speed); }, "");
+}
+
+// A lighthouse: the beam has the direction of the lamp's own time at emission, however the lamp moves.
+TEST(SpotLamp, TurnsByItsOwnTime) {
+  const char* const beam = "direction = [\"cos(0.9*t)\", -0.7, \"sin(0.9*t)\"]\nangle = 80\nedge = 0.5\n";
+  const auto axis = [](double t) { return Vec3{std::cos(0.9 * t), -0.7, std::sin(0.9 * t)}; };
+  const Vec3 place{0.5, 4.0, -1.0};
+  const auto own = [](double t) { return t; };
+  expect_cone(
+      "position = [0.5, 4, -1]\n", beam, [&](double) { return place; }, axis, 80.0, 0.5, own, "");
+  const Vec3 v{0.6, 0.0, 0.0}, start{8.4, 4.0, 0.0};
+  expect_cone(
+      "position = [8.4, 4, 0]\nvelocity = [0.6, 0, 0]\n", beam, [&](double t) { return start + t * v; }, axis,
+      80.0, 0.5, [](double t) { return 0.8 * t; }, three_colours);
+  expect_cone(
+      "position = [\"1.5*cos(0.4*t)\", 4, \"1.5*sin(0.4*t)\"]\n", beam,
+      [](double t) {
+        return Vec3{1.5 * std::cos(0.4 * t), 4.0, 1.5 * std::sin(0.4 * t)};
+      },
+      axis, 80.0, 0.5, [](double t) { return 0.8 * t; }, "");
+}
+
+// While the axis is zero the lamp is dark, and no picture has a NaN of it.
+TEST(SpotLamp, WithoutADirectionIsDark) {
+  const Rendering r = render_text(floor_under(
+      "type = \"spot\"\nposition = [0, 4, 0]\ndirection = [0, \"min(t + 20, 0)\", 0]\nangle = 90\n"));
+  EXPECT_EQ(r.rgb(24, 24), Vec3(0.0));
+  EXPECT_EQ(r.statistics.rays.non_finite, 0U);
 }
 
 TEST(SpotLamp, OfTheWholeSphereIsAPointLamp) {

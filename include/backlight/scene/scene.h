@@ -117,16 +117,24 @@ bool has_own_light(const Material& material);
 
 enum class LightKind { point, distant, ambient };
 
+/// The axis of a lamp that turns, of any length: formulas of its own time t in scene seconds.
+struct TurningAxis {
+  std::array<Expression, 3> components;
+  double c = 1.0;  ///< of the scene
+};
+
 /// What of a point light's directions a spot lamp shines into: those within a cone, in the lamp's own frame,
 /// whose axes are its base frame's carried by the pure boost.
 struct SpotCone {
-  Vec3 axis{0.0, -1.0, 0.0};  ///< unit, of its light
-  double half_angle = 0.5;    ///< in (0, pi]; beyond it is dark
-  double edge = 0.0;          ///< 0..1: the share of that angle over which the light fades, at its end
+  Vec3 axis{0.0, -1.0, 0.0};                   ///< unit, of its light
+  std::shared_ptr<const TurningAxis> turning;  ///< null: it does not turn, and `axis` is it
+  double half_angle = 0.5;                     ///< in (0, pi]; beyond it is dark
+  double edge = 0.0;  ///< 0..1: the share of that angle over which the light fades, at its end
 
-  /// The share of the full intensity that leaves along `direction`, of any length: 1 up to (1 - edge) of the
-  /// angle, then s²(3 - 2s) of what is left of the edge (docs/physics.md equation (12a)).
-  [[nodiscard]] double share(const Vec3& direction) const;
+  /// The share of the full intensity that leaves along `direction`, of any length, at the lamp's own time
+  /// (times c): 1 up to (1 - edge) of the angle, then s²(3 - 2s) of what is left of the edge (docs/physics.md
+  /// equation (12a)). None while a turning axis is zero.
+  [[nodiscard]] double share(const Vec3& direction, double own_time) const;
 };
 
 /// A light in its rest frame.
@@ -148,7 +156,9 @@ struct Light {
   bool flickers = false;
   bool tells_time = false;  ///< the data channels want its own time, though its strength may not depend on it
   Expression strength_of_time;  ///< of t in scene seconds, when it flickers
-                                ///< in scene seconds
+
+  /// Whether anybody asks for its own time.
+  [[nodiscard]] bool has_clock() const { return flickers || tells_time || (cone && cone->turning); }
 };
 
 /// Whether shadow rays are traced for it.
