@@ -40,6 +40,10 @@ void take_in_order(std::vector<T>& values, const std::vector<std::uint32_t>& ord
 
 Mesh::Mesh(MeshData data) : data_(std::move(data)) {
   for (Vec3& place : data_.places) place += 0.0;  // of zeros only the positive one
+  // Between corners all normals count alike, however long they are.
+  for (Vec3& normal : data_.normals) {
+    if (normal != Vec3{0.0}) normal = glm::normalize(of_size_one(normal));
+  }
   drop_degenerate();
   measure();
   lay_out();

@@ -147,7 +147,9 @@ TEST_P(TravellingBalls, AreFoundByManyRaysAsByOne) {
     for (int i = 0; i < sheet_size; ++i) {
       const Hit one = set.nearest(lines[i].origin, lines[i].direction, infinity, lines[i].clock);
       EXPECT_EQ(hits.lambda[i], one.lambda) << i;
-      if (one.found()) EXPECT_EQ(hits.along[i], one.along) << i;
+      if (one.found()) {
+        EXPECT_EQ(hits.along[i], one.along) << i;
+      }
     }
   }
 }
