@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace backlight {
 namespace {
@@ -83,7 +85,7 @@ class Builder {
   }
 
   std::vector<WideNode> build() && {
-    nodes_.reserve(boxes_.size() / 4 + 1);  // seldom are more needed: what is not is never touched
+    nodes_.reserve(boxes_.size() / 2 + 1);  // seldom are more needed: what is not is never touched
     add(range(0, static_cast<int>(boxes_.size()), 0));
     return std::move(nodes_);
   }
@@ -104,10 +106,9 @@ class Builder {
       const auto size = [](const Range& r) { return r.count() > 1 ? half_area(r.box) : -1.0; };
       const auto largest = std::ranges::max_element(parts, {}, size);
       if (largest->count() == 1) break;
-      const Range cut = *largest;
-      const int middle = partition(cut.first, cut.last, cut.depth);
-      *largest = range(cut.first, middle, cut.depth + 1);
-      parts.push_back(range(middle, cut.last, cut.depth + 1));
+      auto [below, above] = halves(*largest);
+      *largest = below;
+      parts.push_back(above);
     }
     const std::size_t here = nodes_.size();
     nodes_.emplace_back();
@@ -131,13 +132,21 @@ class Builder {
     return static_cast<int>(here);
   }
 
-  /// Reorders [first, last) into two non-empty parts and returns where the second begins.
-  int partition(int first, int last, int depth) {
-    const auto box_of = [&](int surface) -> const AxisBox& {
-      return boxes_[static_cast<std::size_t>(surface)];
-    };
-    const auto begin = order_.begin() + first;
-    const auto end = order_.begin() + last;
+  [[nodiscard]] const AxisBox& box_of(int surface) const { return boxes_[static_cast<std::size_t>(surface)]; }
+
+  /// Reorders what is in `whole` into two parts that are not empty.
+  std::pair<Range, Range> halves(const Range& whole) {
+    if (whole.count() > 2 && whole.depth < cost_depth) {
+      if (auto parts = halves_by_cost(whole)) return *parts;
+    }
+    const int middle = whole.first + whole.count() / 2;  // in file order
+    return {range(whole.first, middle, whole.depth + 1), range(middle, whole.last, whole.depth + 1)};
+  }
+
+  /// None: all centres coincide.
+  std::optional<std::pair<Range, Range>> halves_by_cost(const Range& whole) {
+    const auto begin = order_.begin() + whole.first;
+    const auto end = order_.begin() + whole.last;
     Vec3 low{1e308};
     Vec3 high{-1e308};
     for (auto k = begin; k != end; ++k) {
@@ -146,31 +155,37 @@ class Builder {
         high[i] = std::max(high[i], centre(box_of(*k), i));
       }
     }
+    Bin bin[3][bins];
+    fill_bins(begin, end, low, high, bin);
     int axis = 0;
     BestSplit best{std::numeric_limits<double>::infinity(), -1};
-    for (int i = 0; i < 3 && depth < cost_depth; ++i) {
-      if (!(high[i] > low[i])) {
-        continue;
-      }
-      const Binning binning{low[i], high[i]};
-      Bin bin[bins];
-      for (auto k = begin; k != end; ++k) {
-        bin[binning.bin(centre(box_of(*k), i))].include({box_of(*k), 1});
-      }
-      const BestSplit candidate = best_split(bin);
+    for (int i = 0; i < 3; ++i) {
+      const BestSplit candidate = best_split(bin[i]);
       if (candidate.cost < best.cost) {
         best = candidate;
         axis = i;
       }
     }
-    if (best.after_bin >= 0) {
-      const Binning binning{low[axis], high[axis]};
-      const auto middle = std::stable_partition(
-          begin, end, [&](int k) { return binning.bin(centre(box_of(k), axis)) <= best.after_bin; });
-      return static_cast<int>(middle - order_.begin());
+    if (best.after_bin < 0) return std::nullopt;
+    const Binning binning{low[axis], high[axis]};
+    const auto cut = std::stable_partition(
+        begin, end, [&](int k) { return binning.bin(centre(box_of(k), axis)) <= best.after_bin; });
+    const int middle = static_cast<int>(cut - order_.begin());
+    Bin below, above;
+    for (int i = 0; i < bins; ++i) (i <= best.after_bin ? below : above).include(bin[axis][i]);
+    return std::pair{Range{whole.first, middle, whole.depth + 1, below.box},
+                     Range{middle, whole.last, whole.depth + 1, above.box}};
+  }
+
+  /// All axes at once: boxes are far apart in memory.
+  template <class Iterator>
+  void fill_bins(Iterator begin, Iterator end, const Vec3& low, const Vec3& high, Bin (&bin)[3][bins]) const {
+    for (auto k = begin; k != end; ++k) {
+      const AxisBox& box = box_of(*k);
+      for (int i = 0; i < 3; ++i) {
+        if (high[i] > low[i]) bin[i][Binning{low[i], high[i]}.bin(centre(box, i))].include({box, 1});
+      }
     }
-    // All centres coincide (or the tree is deep): halves, in file order.
-    return first + (last - first) / 2;
   }
 
   const std::vector<AxisBox>& boxes_;
