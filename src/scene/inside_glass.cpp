@@ -44,40 +44,23 @@ void check_camera_against(Compilation& c, const SceneFrame& frame, int surface) 
       moves ? "what is in glass must be at rest in its frame" : "a smaller 'separation' may do");
 }
 
-}  // namespace
-
-void check_camera_in_glass(Compilation& c) {
-  for (const SceneFrame& frame : c.scene.frames) {
+// Calls look(frame, surface) for each body of glass.
+template <class Look>
+void for_each_glass(const Scene& scene, const Look& look) {
+  for (const SceneFrame& frame : scene.frames) {
     for (std::size_t i = 0; i < frame.object_of_surface.size(); ++i) {
-      const Object& object = c.scene.objects[static_cast<std::size_t>(frame.object_of_surface[i])];
-      if (c.scene.materials[static_cast<std::size_t>(object.material)].glass == nullptr) continue;
-      check_camera_against(c, frame, static_cast<int>(i));
+      const Object& object = scene.objects[static_cast<std::size_t>(frame.object_of_surface[i])];
+      if (scene.materials[static_cast<std::size_t>(object.material)].glass != nullptr)
+        look(frame, static_cast<int>(i));
     }
   }
 }
-
-namespace {
 
 // Finds matter that moves relative to the glass which it is seen in. Where light goes straight to it: what is
 // seen by refraction alone, or by reflection, is told when it is met.
 class MatterInGlass {
  public:
   explicit MatterInGlass(Compilation& c) : c_(c) {}
-
-  void run() {
-    for (const SceneFrame& frame : c_.scene.frames) {
-      for (std::size_t i = 0; i < frame.object_of_surface.size(); ++i) {
-        const Object& object = object_at(frame, i);
-        if (c_.scene.materials[static_cast<std::size_t>(object.material)].glass != nullptr)
-          look_into(frame, static_cast<int>(i));
-      }
-    }
-  }
-
- private:
-  [[nodiscard]] const Object& object_at(const SceneFrame& frame, std::size_t surface) const {
-    return c_.scene.objects[static_cast<std::size_t>(frame.object_of_surface[surface])];
-  }
 
   void look_into(const SceneFrame& glass, int surface) {
     for (const SceneFrame& other : c_.scene.frames) {
@@ -91,6 +74,7 @@ class MatterInGlass {
     }
   }
 
+ private:
   // Whether the middle of what is at rest in a frame, or one of six points around it, is in the glass when
   // the camera sees it.
   [[nodiscard]] bool is_seen_in(const SceneFrame& frame, int surface, const SceneFrame& glass,
@@ -129,8 +113,14 @@ class MatterInGlass {
 
 }  // namespace
 
+void check_camera_in_glass(Compilation& c) {
+  for_each_glass(c.scene,
+                 [&](const SceneFrame& frame, int surface) { check_camera_against(c, frame, surface); });
+}
+
 void warn_of_matter_in_glass(Compilation& c) {
-  MatterInGlass(c).run();
+  MatterInGlass matter(c);
+  for_each_glass(c.scene, [&](const SceneFrame& frame, int surface) { matter.look_into(frame, surface); });
 }
 
 }  // namespace backlight

@@ -88,7 +88,9 @@ InertialFrame within(const InertialFrame& outer, const InertialFrame& inner) {
 }
 
 ExtendedTransform::ExtendedTransform(const ExtendedVec3& to, const ExtendedVec3& from)
-    : matrix_(product(boost_matrix(to), boost_matrix(Extended(-1.0) * from))) {}
+    : matrix_(boost_matrix(to)) {
+  if (from != ExtendedVec3{}) matrix_ = product(matrix_, boost_matrix(Extended(-1.0) * from));
+}
 
 ExtendedEvent ExtendedTransform::operator()(const ExtendedEvent& d) const {
   const auto row = [&](std::size_t i) {

@@ -292,18 +292,18 @@ PassedStars::PassedStars(const Scene& scene, const Hub& hub, const WavelengthSet
 }
 
 LinearRgb PassedStars::colour(const Star& star, const Escape& way) const {
-  return star_colour(star, scene_->sky.star_scale * star.illuminance, way.shift, way.filters, *wavelengths_);
+  return colour_of(Spectrum::blackbody(star.temperature), star, way);
 }
 
 // To the ratio of temperatures: a body's own luminance at rest takes a sum over all wavelengths.
 LinearRgb PassedStars::about_colour(const Star& star, const Escape& way) const {
   const double number = std::round(std::log(star.temperature / coldest_) / std::log(ratio));
-  const Spectrum& unit = bodies_[std::min(static_cast<std::size_t>(number), bodies_.size() - 1)];
+  return colour_of(bodies_[std::min(static_cast<std::size_t>(number), bodies_.size() - 1)], star, way);
+}
+
+LinearRgb PassedStars::colour_of(const Spectrum& unit, const Star& star, const Escape& way) const {
   const Spectrum body = unit.scaled(scene_->sky.star_scale * star.illuminance);
-  const double shift = way.shift.value;
-  const LinearRgb film = way.filters.empty() ? wavelengths_->lights().at(body, shift)->film()
-                                             : integrate_film(body, shift, way.filters);
-  return wavelength_density_factor(way.shift) * film;
+  return star_colour(body, way.shift, way.filters, *wavelengths_);
 }
 
 void PassedStars::add_cones(const FrameView& view, const std::vector<int>& surfaces) {

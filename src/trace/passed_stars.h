@@ -31,6 +31,8 @@ class PassedStars {
   friend class PixelSearch;
   [[nodiscard]] LinearRgb colour(const Star& star, const Escape& way) const;
   [[nodiscard]] LinearRgb about_colour(const Star& star, const Escape& way) const;
+  /// Of a blackbody of unit luminance.
+  [[nodiscard]] LinearRgb colour_of(const Spectrum& unit, const Star& star, const Escape& way) const;
   void add_cones(const FrameView& view, const std::vector<int>& surfaces);
   [[nodiscard]] bool may_be_passed_on(int x, int y, int eye) const;
 

@@ -80,15 +80,13 @@ LinearRgb Tracer::colour_at(const Leg& leg, const FirstHit& hit, const Effects& 
   const Material* passing = nullptr;
   if (relays_.any() && hit.found() && passes_on(material_at(point))) passing = &material_at(point);
   LinearRgb sum{0.0};
-  if (scratch.escapes != nullptr) {
-    if (hit.found() || leg.passed == 0) {
-      // Nothing but what is passed on.
-    } else {
-      const auto shift = shifted ? doppler : DopplerFactor<Camera, Rest>{};
-      scratch.escapes->found.push_back({scratch.escapes->so_far, glm::normalize(events.direction), shift,
-                                        radiance_factor(doppler, gamma, factors) * leg.weight,
-                                        scratch.filters});
-    }
+  if (scratch.escapes != nullptr && !hit.found() && leg.passed > 0) {
+    const auto shift = shifted ? doppler : DopplerFactor<Camera, Rest>{};
+    scratch.escapes->found.push_back({scratch.escapes->so_far, glm::normalize(events.direction), shift,
+                                      radiance_factor(doppler, gamma, factors) * leg.weight,
+                                      scratch.filters});
+  } else if (scratch.escapes != nullptr) {
+    // Nothing but what is passed on.
   } else if (passing != nullptr && !has_own_light(*passing)) {
     // The same.
   } else if (!shifted) {

@@ -34,14 +34,14 @@ LinearRgb light_of(const Star& star, double illuminance, DopplerFactor<Camera, R
                    const Effects& effects, const WavelengthSet& wavelengths) {
   const double flux = flux_factor(doppler, gamma, effects.towards_camera());
   const DopplerFactor<Camera, Rest> shift = effects.doppler ? doppler : DopplerFactor<Camera, Rest>{};
-  return flux * star_colour(star, illuminance, shift, {}, wavelengths);
+  const Spectrum body = Spectrum::blackbody(star.temperature).scaled(illuminance);
+  return flux * star_colour(body, shift, {}, wavelengths);
 }
 
 }  // namespace
 
-LinearRgb star_colour(const Star& star, double illuminance, DopplerFactor<Camera, Rest> shift,
+LinearRgb star_colour(const Spectrum& body, DopplerFactor<Camera, Rest> shift,
                       const std::vector<Filter>& filters, const WavelengthSet& wavelengths) {
-  const Spectrum body = Spectrum::blackbody(star.temperature).scaled(illuminance);
   const LinearRgb film = filters.empty() ? wavelengths.lights().at(body, shift.value)->film()
                                          : integrate_film(body, shift.value, filters);
   return wavelength_density_factor(shift) * film;

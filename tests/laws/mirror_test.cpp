@@ -10,6 +10,7 @@
 #include "backlight/colour/observer.h"
 #include "backlight/colour/spectrum.h"
 #include "backlight/scene/needs.h"
+#include "four_vector.h"
 #include "matter_scenes.h"
 #include "redescription.h"
 
@@ -39,18 +40,6 @@ template <class Look>
 void for_each_pixel(const Rendering& picture, const Look& look) {
   for (int y = 0; y < picture.height(); ++y)
     for (int x = 0; x < picture.width(); ++x) look(x, y);
-}
-
-// (t; x) in the frame that moves with this velocity.
-struct FourVector {
-  double t;
-  Vec3 x;
-};
-FourVector boosted(const FourVector& n, const Vec3& velocity) {
-  const double gamma = lorentz_factor(velocity);
-  const Vec3 u = gamma * velocity;
-  const double along = glm::dot(u, n.x);
-  return {gamma * n.t - along, n.x + (along / (gamma + 1.0) - n.t) * u};
 }
 
 // The traced null vector of the camera, at rest in the world, after a mirror of this velocity and normal (in

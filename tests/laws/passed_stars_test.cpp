@@ -6,22 +6,11 @@
 #include <vector>
 
 #include "backlight/colour/observer.h"
+#include "four_vector.h"
 #include "matter_scenes.h"
 
 namespace backlight::test {
 namespace {
-
-// (t; x) in the frame that moves with this velocity.
-struct FourVector {
-  double t;
-  Vec3 x;
-};
-FourVector boosted(const FourVector& n, const Vec3& velocity) {
-  const double gamma = lorentz_factor(velocity);
-  const Vec3 u = gamma * velocity;
-  const double along = glm::dot(u, n.x);
-  return {gamma * n.t - along, n.x + (along / (gamma + 1.0) - n.t) * u};
-}
 
 struct Velocities {
   Vec3 matter{0.0}, camera{0.0}, sky{0.0};

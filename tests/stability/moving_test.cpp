@@ -11,12 +11,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <random>
 #include <stdexcept>
 #include <string>
 
 #include "backlight/scene/compile.h"
 #include "backlight/scene/reader.h"
+#include "random_numbers.h"
 
 namespace backlight::test {
 namespace {
@@ -24,23 +24,6 @@ namespace {
 using Real = long double;
 static_assert(std::numeric_limits<Real>::digits >= 64);
 using Real3 = std::array<Real, 3>;
-
-class Numbers {
- public:
-  explicit Numbers(unsigned seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  Vec3 direction() {
-    const double z = between(-1.0, 1.0), angle = between(0.0, 6.283185307179586),
-                 ring = std::sqrt(1.0 - z * z);
-    return {ring * std::cos(angle), ring * std::sin(angle), z};
-  }
-  Vec3 point(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 std::string number(double x) {
   std::array<char, 40> text{};

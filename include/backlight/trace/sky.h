@@ -17,9 +17,9 @@ Radiance<Rest> sky_radiance(const Sky& sky, const RestRayEvents& ray);
 /// The same with scratch.shift on the way.
 LinearRgb sky_shifted(const ShadingContext& context, const Radiance<Rest>& radiance, Scratch& scratch);
 
-/// Film colour of a star's irradiance, `illuminance` at rest, with its colours shifted so and under filters:
-/// the density per unit wavelength is in it, the factor on the flux is not.
-LinearRgb star_colour(const Star& star, double illuminance, DopplerFactor<Camera, Rest> shift,
+/// Film colour of a star's irradiance, `body` at rest, with its colours shifted so and under filters: the
+/// density per unit wavelength is in it, the factor on the flux is not.
+LinearRgb star_colour(const Spectrum& body, DopplerFactor<Camera, Rest> shift,
                       const std::vector<Filter>& filters, const WavelengthSet& wavelengths);
 
 /// About the greatest film value of a star in a pixel of the picture's middle, by whatever way its light

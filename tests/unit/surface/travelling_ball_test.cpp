@@ -3,18 +3,19 @@
 
 #include <cmath>
 #include <memory>
-#include <random>
 #include <string>
 
 #include "backlight/surface/implicit_surface.h"
 #include "backlight/surface/matter_motion.h"
 #include "backlight/surface/surface_set.h"
 #include "formula_text.h"
+#include "random_numbers.h"
 
 namespace backlight {
 namespace {
 
 using test::formula;
+using test::Numbers;
 
 constexpr double radius = 0.3;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -55,21 +56,6 @@ SurfaceSet by_formula(const Travel& travel) {
   return set_of(implicit(f, Vec3{-infinity}, Vec3{infinity}, options));
 }
 
-class Numbers {
- public:
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  Vec3 direction() {
-    const double z = between(-1.0, 1.0), angle = between(0.0, 6.283185307179586),
-                 ring = std::sqrt(1.0 - z * z);
-    return {ring * std::cos(angle), ring * std::sin(angle), z};
-  }
-
- private:
-  std::mt19937_64 engine_{11};
-};
-
 struct Line {
   Vec3 origin, direction;
   RayClock clock;
@@ -92,7 +78,7 @@ class TravellingBalls : public testing::TestWithParam<Travel> {};
 TEST_P(TravellingBalls, AreFoundWhereTheirFormulaIs) {
   const auto motion = motion_of(GetParam());
   const SurfaceSet ball = set_of(travelling_ball(radius, false, motion)), other = by_formula(GetParam());
-  Numbers numbers;
+  Numbers numbers(11);
   int hits = 0;
   for (int i = 0; i < 20'000; ++i) {
     const Line line = line_near(*motion, numbers);
@@ -124,7 +110,7 @@ TEST_P(TravellingBalls, AreFoundWhereTheirFormulaIs) {
 TEST_P(TravellingBalls, AreFoundByManyRaysAsByOne) {
   const auto motion = motion_of(GetParam());
   const SurfaceSet set = set_of(travelling_ball(radius, false, motion));
-  Numbers numbers;
+  Numbers numbers(11);
   for (const InstructionSet instructions :
        {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::widest}) {
     RaySheet sheet;
