@@ -323,10 +323,9 @@ void GltfFile::put_sparse(const Json& accessor, std::size_t count, std::size_t c
   const bool divided = normalized != accessor.end() && normalized->is_boolean() && normalized->get<bool>();
   fill(numbers, 0, type(accessor), divided, changed, components, to.data());
   for (std::size_t i = 0; i < changed; ++i) {
-    if (!(at[i] < static_cast<double>(count)))
-      fail_of_index(static_cast<std::int64_t>(at[i]), count, "the number");
+    const std::size_t place = index_below(count, at[i], "the number");
     std::copy_n(to.begin() + static_cast<std::ptrdiff_t>(i * components), components,
-                values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(at[i]) * components));
+                values.begin() + static_cast<std::ptrdiff_t>(place * components));
   }
 }
 

@@ -226,10 +226,7 @@ class Reader {
     const auto first = static_cast<std::uint32_t>(read_.places.size());
     add_corners(places, attributes, matrix, materials_.laying(material));
     const auto corner = [&](std::size_t i) {
-      const double at = indices ? (*indices)[i] : static_cast<double>(i);
-      if (!(at < static_cast<double>(vertices)))
-        fail_of_index(static_cast<std::int64_t>(at), vertices, "the vertex");
-      return first + static_cast<std::uint32_t>(at);
+      return first + index_below(vertices, indices ? (*indices)[i] : static_cast<double>(i), "the vertex");
     };
     const bool mirrored = determinant(matrix) < 0.0;
     const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {

@@ -261,11 +261,8 @@ class Reader {
   }
 
   std::uint32_t corner(double number) const {
-    if (!(number >= 0.0 && number < static_cast<double>(vertices_)) || number != std::floor(number)) {
-      if (vertices_ == 0) throw std::runtime_error("it has faces before its vertices, or no vertices");
-      fail_of_index(static_cast<std::int64_t>(number), vertices_, "the vertex");
-    }
-    return static_cast<std::uint32_t>(number);
+    if (vertices_ == 0) throw std::runtime_error("it has faces before its vertices, or no vertices");
+    return index_below(vertices_, number, "the vertex");
   }
 
   void add_face() {

@@ -57,6 +57,10 @@ Read read_gltf(const std::string& path, bool normals);
 /// from 1.
 [[noreturn]] void fail_of_index(std::int64_t index, std::size_t count, const char* what);
 
+/// A number of a file as an index below `count`; throws the same where it is none: negative, too large, not
+/// whole, not a number.
+std::uint32_t index_below(std::size_t count, double number, const char* what);
+
 /// A file's bytes. Fails where it cannot be opened.
 class FileBytes {
  public:

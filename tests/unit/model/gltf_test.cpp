@@ -241,6 +241,16 @@ TEST(Gltf, RefusesNumbersThatAreNotThere) {
   Gltf file;
   file.buffer = places + bytes_of<std::uint16_t>({0, 1, 2, 2, 1, 9}) + std::string(16, '\0');
   EXPECT_EQ(refusal("range.gltf", file.json()), "a face names the vertex 9, and there are 4");
+  file.index = R"("bufferView":1,"componentType":5122,"count":6,"type":"SCALAR")";
+  file.buffer = places + bytes_of<std::int16_t>({0, 1, 2, 2, 1, -3}) + std::string(16, '\0');
+  EXPECT_EQ(refusal("minus.gltf", file.json()), "a face names the vertex -3, and there are 4");
+  file.index = R"("bufferView":1,"componentType":5126,"count":3,"type":"SCALAR")";
+  file.buffer = places + bytes_of<float>({0, 1, 1.5}) + std::string(16, '\0');
+  EXPECT_EQ(refusal("half.gltf", file.json()), "a face names the vertex 1.5, and there are 4");
+  file.buffer =
+      places + bytes_of<float>({0, 1, -std::numeric_limits<double>::infinity()}) + std::string(16, '\0');
+  EXPECT_EQ(refusal("far.gltf", file.json()), "a face names the vertex -inf, and there are 4");
+  file = {};
   file.buffer = bytes_of<float>({0, std::numeric_limits<double>::infinity(), 0}) + places.substr(12) +
                 indices + std::string(16, '\0');
   EXPECT_EQ(refusal("infinite.gltf", file.json()), "it has a number that is not finite");

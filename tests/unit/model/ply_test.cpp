@@ -108,6 +108,16 @@ TEST(Ply, RefusesWhatIsWrong) {
             "it has a number that is not finite");
   EXPECT_EQ(refusal("range.ply", text + three + "3 0 1 7\n"), "a face names the vertex 7, and there are 3");
   EXPECT_EQ(refusal("minus.ply", text + three + "3 0 1 -1\n"), "a face names the vertex -1, and there are 3");
+  for (const auto& [number, named] : {std::pair{1e300, "1.0000000000000001e+300"},
+                                      {1.5, "1.5"},
+                                      {std::numeric_limits<double>::quiet_NaN(), "nan"}}) {
+    EXPECT_EQ(
+        refusal("double.ply",
+                header("binary_little_endian",
+                       vertices(3, "float") + "element face 1\nproperty list uchar double vertex_indices\n") +
+                    std::string(36, '\0') + "\3" + bytes_of<double>({0, 1, number})),
+        "a face names the vertex " + std::string(named) + ", and there are 3");
+  }
   EXPECT_EQ(refusal("cut.ply", text + three), "it is cut short: it ends within its 1 of 'face'");
   EXPECT_EQ(refusal("cut_too.ply", text + "0 0 0\n1 0"), "it is cut short: it ends within its 3 of 'vertex'");
   EXPECT_EQ(refusal("list.ply", text + three + "1000000000 0 1 2\n"),
