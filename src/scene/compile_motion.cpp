@@ -110,14 +110,17 @@ bool lives_by_own_time(const Description& description, const Node& node, bool of
          });
 }
 
-/// The middle of where formulas of t ever are, which is taken off them: of what goes on forever nothing.
+/// The middle of where formulas of t ever are, which is taken off them: of what goes on forever, however
+/// slowly, nothing, since the middle is far from where it is seen and would cost the digits of its places.
 Vec3 take_middle(std::array<Expression, 3>& formulas) {
   Vec3 middle{0.0};
   for (int i = 0; i < 3; ++i) {
     Expression& formula = formulas[static_cast<std::size_t>(i)];
-    const Interval range = over_times(formula, -always, always).value;
-    constexpr double far_away = 1e9;
-    if (!(range.upper - range.lower < far_away)) continue;
+    constexpr double not_long = 0x1p-20 * always;
+    const Interval range = over_times(formula, -always, always).value,
+                   part = over_times(formula, -not_long, not_long).value;
+    const double width = range.upper - range.lower;
+    if (!std::isfinite(width) || width > 4.0 * (part.upper - part.lower)) continue;
     middle[i] = 0.5 * range.lower + 0.5 * range.upper;
     Composer composer(ImplicitFormula::variables);
     const std::array<Composer::Node, 4> at{composer.variable(0), composer.variable(1), composer.variable(2),
