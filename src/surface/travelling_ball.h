@@ -109,6 +109,7 @@ class BallSearch {
     value_ = V(0.5) * (dot(w_, w_) - square_radius_);
     rate_ = dot(w_, u_);
     half_bend_ = V(0.5) * (square + turn * dot(w_, at.acceleration));
+    turn_ = turn * dot(at.acceleration, direction_);
     speed_ = V(0.5) * square + V(0.5);  // |u| is no more
     distance_ = length(w_);
   }
@@ -119,12 +120,16 @@ class BallSearch {
     return (V(3.0) * speed * bend_ + (distance_ + speed * h) * change_of_bend_) * V(1.0 + 1e-12);
   }
 
-  /// How far from s w·d, which grows by no less than slowest_, and now at `pace`, may get by `way` at most.
-  [[nodiscard]] BACKLIGHT_LANES V reach(V way, V pace) const {
-    const V left = larger(way, V(0.0)), under = pace * pace - V(2.0) * bend_ * left;
-    const V by_pace = V(2.0) * left / (pace + sqrt(larger(under, V(0.0))));
-    const V by_slowest = left / slowest_;
-    return select(under > V(0.0), smaller(by_pace, by_slowest), by_slowest) * V(1.0 + 1e-9);
+  /// How far from s w·d, which grows by no less than slowest_, and now at `pace`, which itself now grows by
+  /// `turn`, may get by `way` at most.
+  [[nodiscard]] BACKLIGHT_LANES V reach(V way, V pace, V turn) const {
+    const V left = larger(way, V(0.0)), by_slowest = left / slowest_;
+    // A little farther than it would be, without the jerk; if with the most of it that is far enough, too.
+    const V more = V(1.25) * left, square = pace * pace + V(2.0) * turn * more;
+    const V guess = V(2.0) * more / (pace + sqrt(larger(square, V(0.0))));
+    const V least = guess * (pace + guess * (V(0.5) * turn - guess * change_of_bend_ * V(1.0 / 6.0)));
+    const Mask enough = (square > V(0.0)) & (least >= left);
+    return select(enough, smaller(guess, by_slowest), by_slowest) * V(1.0 + 1e-9);
   }
 
   /// To where the line passes the centre, by Newton's method within a bracket; any place near to it will do.
@@ -137,7 +142,8 @@ class BallSearch {
     const Mask beyond = ahead > V(0.0);
     high_ = select(beyond, s_, smaller(high_, farthest));
     low_ = select(beyond, larger(low_, farthest), s_);
-    V next = s_ - ahead / pace;
+    const V square = pace * pace - V(2.0) * turn_ * ahead;
+    V next = s_ - V(2.0) * ahead / (pace + sqrt(larger(square, V(0.0))));
     next = select((next > low_) & (next < high_), next, V(0.5) * low_ + V(0.5) * high_);
     if (bits(arrived) != 0) next = select(arrived, begin(arrived, ahead, pace), next);
     s_ = select(seeking_, next, s_);
@@ -146,7 +152,7 @@ class BallSearch {
 
   /// From where on roots are looked for: all are within reach of here.
   BACKLIGHT_LANES V begin(Mask arrived, V ahead, V pace) {
-    const V forwards = reach(radius_ - ahead, pace), backwards = reach(radius_ + ahead, pace);
+    const V forwards = reach(radius_ - ahead, pace, turn_), backwards = reach(radius_ + ahead, pace, -turn_);
     const V left = s_ - backwards;
     end_ = select(arrived, smaller(s_ + forwards, last_), end_);
     // f(s+h) >= value + rate h + bend h² all over the reach.
@@ -239,7 +245,7 @@ class BallSearch {
   V sign_{1.0};                        ///< of f before the first root
   V root_{__builtin_nan("")};
   // look():
-  V time_{0.0}, value_{0.0}, rate_{0.0}, half_bend_{0.0}, speed_{0.0}, distance_{0.0};
+  V time_{0.0}, value_{0.0}, rate_{0.0}, half_bend_{0.0}, turn_{0.0}, speed_{0.0}, distance_{0.0};
   V3 w_{V(0.0), V(0.0), V(0.0)}, u_{V(0.0), V(0.0), V(0.0)};
 };
 
