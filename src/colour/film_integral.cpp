@@ -172,10 +172,11 @@ LinearRgb integrate_film(const Spectrum& light, double shift, std::span<const Fi
   collect({light, shift, filters}, work);
   for (const Filter& filter : filters) {
     work.evaluate(*filter.spectrum, filter.shift);
-    for (std::size_t i = 0; i < work.nm.size(); ++i) {
-      const double share = filter.power == 1.0 ? work.value[i] : std::pow(work.value[i], filter.power);
-      work.weight[i] *= share;
+    if (filter.power != 1.0) {
+      spectral_kernels(InstructionSet::widest)
+          .raise(filter.power, static_cast<int>(work.nm.size()), work.value.data());
     }
+    for (std::size_t i = 0; i < work.nm.size(); ++i) work.weight[i] *= work.value[i];
   }
   LinearRgb sum{0.0};
   for (const LinearRgb& weight : work.weight) sum += weight;

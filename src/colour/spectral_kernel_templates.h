@@ -2,6 +2,7 @@
 #pragma once
 
 #include "backlight/base/lane_exponential.h"
+#include "backlight/base/lane_power.h"
 #include "backlight/colour/spectral_kernels.h"
 #include "cie_tables.h"
 #include "light_kernels.h"
@@ -171,6 +172,11 @@ struct SpectralKernelsOf {
       case SpectrumForm::Kind::tabulated:
         return;
     }
+  }
+
+  static void raise(double exponent, int n, double* share) {
+    for_each(share, n, share,
+             [&](V base) { return select(base > V(0.0), power(base, V(exponent)), V(0.0)); });
   }
 
   static constexpr int block = 8;  ///< terms of which each has a sum of its own
@@ -379,6 +385,7 @@ struct SpectralKernelsOf {
     return {name,
             N,
             evaluate,
+            raise,
             film,
             film_between,
             film_and_slopes,

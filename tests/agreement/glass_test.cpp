@@ -13,7 +13,7 @@ namespace {
 // Glass within glass, a bubble, boxes that touch, something opaque in one, coloured and clear, at rest and in
 // two motions, under a lamp at rest and one that flies.
 std::string scene(const std::string& camera, const std::string& more = {}) {
-  return "[film]\nresolution = [60, 40]\nbounces = 10\n"
+  return "[film]\nresolution = [48, 32]\nbounces = 10\n"
          "aovs = [\"Z\", \"doppler\", \"objectId\", \"N\", \"mirror\", \"light\"]\n"
          "[camera]\nposition = [0, 1.4, -6]\ndirection = [0, -0.15, 1]\n" +
          camera + two_lamps + R"toml(
@@ -79,7 +79,7 @@ material = { mirror = 0.9 }
 void expect_the_law(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const Rendering a = render_text(text, {.overrides = overrides, .path = RayPath::one_by_one});
   const Rendering b = render_text(text, {.threads = 3, .overrides = overrides});
-  EXPECT_GT(b.statistics.rays.passed_on, 300U);
+  EXPECT_GT(b.statistics.rays.passed_on, 200U);
   EXPECT_EQ(a.statistics.rays.passed_on, b.statistics.rays.passed_on);
   EXPECT_EQ(a.statistics.rays.ended, b.statistics.rays.ended);
   expect_same_bits(a.image, b.image);
@@ -98,8 +98,8 @@ TEST(Glass, IsTheLawInSheetsForAnyThreadsAndCrop) {
 }
 
 TEST(Glass, IsTheLawWhereSamplesAreChosen) {
-  expect_the_law(scene(""), {"film.tolerance=0.02"});
-  expect_the_law(scene("beta = [0.2, 0.1, 0.4]"), {"film.tolerance=0.05", "film.resolution=[36, 24]"});
+  expect_the_law(scene(""), {"film.tolerance=0.1"});
+  expect_the_law(scene("beta = [0.2, 0.1, 0.4]"), {"film.tolerance=0.1", "film.resolution=[36, 24]"});
 }
 
 TEST(Glass, IsTheLawAroundTheCamera) {
@@ -108,7 +108,7 @@ TEST(Glass, IsTheLawAroundTheCamera) {
   within.replace(within.find("position = [0, 1.4, -6]"), std::string("position = [0, 1.4, -6]").size(),
                  "position = [2.2, 1.4, 1.7]");
   expect_the_law(within);
-  expect_the_law(within, {"film.tolerance=0.05", "film.resolution=[36, 24]"});
+  expect_the_law(within, {"film.tolerance=0.1", "film.resolution=[36, 24]"});
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 // log2 x = e + log2 m with m in [1/√2, √2), by the series of the inverse hyperbolic tangent in
 // s = (m-1)/(m+1); 2^t by Taylor's series about the nearest whole number. Both series leave less than one
 // rounding. The relative error of the result is below 4 |y log2 x| + 8 units of 2^-53: the rounding of the
-// logarithm, times what the exponential makes of it (measured in tests/unit/base).
+// logarithm, times what the exponential makes of it (measured in tests/unit/colour).
 #pragma once
 
 #include "backlight/base/lanes.h"

@@ -72,6 +72,8 @@ struct SpectralKernels {
   int width;
   /// out[i] = the spectrum's value at nm[i] for i < n. Of any kind but `tabulated`.
   void (*evaluate)(const SpectrumForm& spectrum, const double* nm, int n, double* out);
+  /// share[i] = share[i]^exponent for i < n, of shares from 0 to 1 and exponent > 0 (base/lane_power.h).
+  void (*raise)(double exponent, int n, double* share);
   /// colour[c] = Σ_i a[i] b[i] weights[c][i], i < n; b null: 1. Eight sums, of every eighth term, are added
   /// at the end, whatever the number of lanes.
   void (*film)(const double* const (&weights)[3], const double* a, const double* b, int n,

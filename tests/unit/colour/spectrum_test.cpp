@@ -219,6 +219,34 @@ TEST(Spectrum, BatchesHaveTheSameBits) {
   }
 }
 
+// Against an extended-precision power, to the error that base/lane_power.h states.
+TEST(Spectrum, SharesAreRaised) {
+  std::vector<double> shares{0.0, 0x1p-1022, 1e-300, 1e-20, 1.0 - 0x1p-53, 1.0, 1.0 + 0x1p-52};
+  for (double share = 0.001; share < 1.0; share += 0.013) shares.push_back(share);
+  const int n = static_cast<int>(shares.size());
+  for (const double exponent : {1e-12, 0.001, 0.37, 2.0, 25.5, 4000.0}) {
+    std::vector<double> expected = shares;
+    spectral_kernels(InstructionSet::baseline).raise(exponent, n, expected.data());
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      const long double exact =
+          std::pow(static_cast<long double>(shares[i]), static_cast<long double>(exponent));
+      const long double logarithm = std::fabs(exponent * std::log2(std::max(shares[i], 1e-308)));
+      if (exact < 0x1p-1022L) {
+        EXPECT_LE(expected[i], 0x1p-1021) << shares[i] << ' ' << exponent;
+      } else {
+        EXPECT_LE(std::fabs(expected[i] / exact - 1.0L), (4.0L * logarithm + 8.0L) * 0x1p-53L)
+            << shares[i] << ' ' << exponent;
+      }
+    }
+    EXPECT_EQ(expected[0], 0.0);
+    for (const auto instructions : {InstructionSet::avx2, InstructionSet::widest}) {
+      std::vector<double> raised = shares;
+      spectral_kernels(instructions).raise(exponent, n, raised.data());
+      EXPECT_EQ(raised, expected);
+    }
+  }
+}
+
 TEST(Spectrum, Scaled) {
   for (const Spectrum& spectrum : one_of_each()) {
     // A blackbody of 3 K has its strength as a logarithm of some thousands.
