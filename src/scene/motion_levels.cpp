@@ -1,10 +1,14 @@
 #include "motion_levels.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "backlight/expression/waves.h"
 #include "backlight/surface/implicit.h"
 #include "backlight/surface/placement.h"
+#include "backlight/surface/wave_path.h"
 #include "own_time.h"
 
 namespace backlight {
@@ -130,6 +134,29 @@ MotionCoordinates out_of_all(Composer& composer, const std::vector<MotionLevel>&
   return x;
 }
 
+/// Whether all that moves is a rotation about one axis that stays, always as fast.
+bool turns_steadily(const MotionLevel& level) {
+  if (level.rocket || !constants_of(level.position) || !constants_of(level.scale)) return false;
+  const auto angles = WavePath::of(level.rotate, 1.0);
+  if (!angles || !angles->is_straight()) return false;
+  const Vec3 speeds = angles->velocity();
+  return (speeds.x != 0.0) + (speeds.y != 0.0) + (speeds.z != 0.0) == 1;
+}
+
+/// Whether each point is as fast as ever at all times: what turns is only moved as a whole by the levels
+/// outside.
+bool keeps_speeds(const std::vector<MotionLevel>& levels) {
+  const auto moving = std::ranges::find_if(levels, &MotionLevel::moves);
+  if (moving == levels.end() || !turns_steadily(*moving)) return false;
+  const auto scales_alike = [](const MotionLevel& level) {
+    const auto scale = constants_of(level.scale);
+    return std::abs(scale->x) == std::abs(scale->y) && std::abs(scale->x) == std::abs(scale->z);
+  };
+  return std::all_of(levels.begin(), moving, scales_alike) &&
+         std::none_of(std::next(moving), levels.end(),
+                      [](const MotionLevel& level) { return level.moves(); });
+}
+
 }  // namespace
 
 MatterMotion::Body body_of(const std::vector<MotionLevel>& levels) {
@@ -147,6 +174,7 @@ MatterMotion::Body body_within(const std::vector<MotionLevel>& levels,
     body.place[i] = composer.expression(place[i], "place");
     body.point[i] = composer.expression(point[i], "body point");
   }
+  body.steady = keeps_speeds(levels);
   body.period = period_of_rates(body.place, ImplicitFormula::t);
   return body;
 }

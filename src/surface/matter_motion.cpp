@@ -72,6 +72,7 @@ double MatterMotion::own_time(const Vec3& place, double time, const Mat3& rest_f
     return own_time_of_flow(flow, rest_from_local, place, time);
   }
   const Vec3 point = body_point(place, time);
+  if (body_->steady) return time * clock_rate(rest_from_local * velocity_of(point, time));
   const auto period = body_->period ? std::optional(*body_->period / time_.seconds_per_length) : std::nullopt;
   return own_time_along([&](double when) { return rest_from_local * velocity_of(point, when); }, time,
                         period);

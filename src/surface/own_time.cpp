@@ -5,11 +5,12 @@
 #include <cmath>
 
 namespace backlight {
-namespace {
 
-double rate(const Vec3& velocity) {
+double clock_rate(const Vec3& velocity) {
   return std::sqrt(1.0 - glm::dot(velocity, velocity));
 }
+
+namespace {
 
 struct Rules {
   double kronrod;
@@ -62,7 +63,7 @@ constexpr int deepest = 24;
 
 double own_time_along(const std::function<Vec3(double)>& velocity, double time,
                       std::optional<double> period) {
-  const auto clock = [&](double t) { return rate(velocity(t)); };
+  const auto clock = [&](double t) { return clock_rate(velocity(t)); };
   if (!period) return integral(clock, 0.0, time, tolerance, deepest);
   // Whole periods, and what is left: in pieces on which the rules mostly agree at once.
   const auto in_pieces = [&](double length) {
@@ -110,7 +111,7 @@ double own_time_of_flow(const std::function<Vec3(const Vec3&, double)>& velocity
                         const Vec3& place, double time) {
   const auto rates = [&](const State& at, double t) {
     const Vec3 v = velocity(at.place, t);
-    return State{v, rate(rest_from_local * v)};
+    return State{v, clock_rate(rest_from_local * v)};
   };
   constexpr int most_steps = 100'000;
   constexpr double wanted = 1e-12;

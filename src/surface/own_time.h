@@ -8,6 +8,9 @@
 
 namespace backlight {
 
+/// √(1 - v²): what a clock counts in a unit of time. Not a number where v > 1.
+double clock_rate(const Vec3& velocity);
+
 /// ∫₀^time √(1 - v²) dt of a velocity by time, to about 1e-12 of it: Gauss and Kronrod's rules of 7 and 15
 /// points, on halves of an interval where they differ. Not a number where v >= 1. `period`: of the velocity,
 /// if one is known; then it takes no longer at any time than over a period.

@@ -138,6 +138,40 @@ TEST(OwnTime, BodiesOfAnyTemperatureAreAsBrightAsTheyAreSaidToBe) {
   }
 }
 
+// What turns steadily is known to, by how it is written (docs/physics.md equation (25)). With a term that is
+// far below rounding it is not, and is integrated.
+TEST(OwnTime, OfWhatTurnsIsTheSameHoweverTheAngleIsWritten) {
+  const std::string disk =
+      "[[object]]\nshape = \"disk\"\nradius = 1.2\nposition = [0.1, 0, 0]\nrotate = [90, 0, A]\n";
+  const std::string box = "shape = \"box\"\nsize = [1.2, 0.8, 1]\nscale = [1, 1.5, 0.7]\n";
+  const std::string parts = "[[object.part]]\n" + box + "position = [0.4, 0, 0]\nrotate = [10, A, 30]\n" +
+                            "[[object.part]]\n" + box + "rotate = [10, 20, A]\n";
+  const std::string solid = "[[object]]\nshape = \"union\"\nposition = [0.1, 0, 0]\n";
+  for (const std::string& turning :
+       {disk, "[[object]]\n" + box + "rotate = [20, A, 40]\n", "[[object]]\n" + box + "rotate = [A, 10, A]\n",
+        solid + "rotate = [0, 10, 20]\n" + parts, solid + "scale = [0.5, 1, 1.5]\n" + parts,
+        solid + "rotate = [0, A, 0]\n" + parts,
+        solid + "rotate = [0, A, 0]\nscale = [0.5, 1, 1.5]\n[[object.part]]\n" + box}) {
+    const auto with_angle = [&](const std::string& angle) {
+      std::string text = turning;
+      for (auto at = text.find("A"); at != std::string::npos; at = text.find("A")) text.replace(at, 1, angle);
+      return render_text(start() + text, three_colours);
+    };
+    const Rendering known = with_angle("\"30 + 40*t\"");
+    const Rendering integrated = with_angle("\"30 + 40*t + 1e-30*t^2\"");
+    Worst error;
+    int pixels = 0;
+    for (int y = 0; y < known.height(); ++y) {
+      for (int x = 0; x < known.width(); ++x) {
+        error.take(std::abs(known.at("properTime.T", x, y) - integrated.at("properTime.T", x, y)));
+        pixels += known.id(x, y) != 0;
+      }
+    }
+    EXPECT_GT(pixels, 60) << turning;
+    EXPECT_LT(error.error, 2e-6) << turning;
+  }
+}
+
 TEST(OwnTime, ReflectanceIsOfEachPointsOwnTime) {
   const std::string formula = "\"0.5 + 0.4*sin(9*t)\"";
   const std::string grey = "[" + formula + ", " + formula + ", " + formula + "]";

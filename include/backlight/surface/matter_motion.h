@@ -27,6 +27,8 @@ class MatterMotion {
     Map point;  ///< of a place: which body point is there
     /// After which, in seconds, body points have the velocities again that they had, if one is known.
     std::optional<double> period{};
+    /// Whether each body point is as fast as ever at all times.
+    bool steady = false;
     /// Of the matter within the body, in its coordinates, in lengths for a second; without one its points
     /// rest.
     std::optional<Map> flow{};
@@ -44,7 +46,7 @@ class MatterMotion {
 
   struct Time {
     double seconds_per_length = 1.0;
-    /// False: nothing asks for own_time(), which takes as long as some hundred formulas.
+    /// False: nothing asks for own_time(), which may take as long as some hundred formulas.
     bool counts = true;
   };
 

@@ -37,6 +37,22 @@ TEST(OwnTime, OfWhatTurnsSteadilyIsUniformForEver) {
   }
 }
 
+// Told that each point's speed stays, it asks once.
+TEST(OwnTime, OfWhatIsSteadyIsThatOfTheQuadrature) {
+  MatterMotion::Body body{
+      {formula("x*cos(0.9*t) - y*sin(0.9*t)"), formula("x*sin(0.9*t) + y*cos(0.9*t)"), formula("z")},
+      {formula("x*cos(0.9*t) + y*sin(0.9*t)"), formula("y*cos(0.9*t) - x*sin(0.9*t)"), formula("z")}};
+  const MatterMotion by_quadrature(body, sphere(1.0), std::nullopt, {.seconds_per_length = 0.5});
+  body.steady = true;
+  const MatterMotion at_once(body, sphere(1.0), std::nullopt, {.seconds_per_length = 0.5});
+  const Mat3 larger(1.3);
+  for (const double time : {-7.0, 0.0, 0.7, 20.0}) {
+    const Vec3 place{0.3, -0.8, 0.2};
+    const double exact = by_quadrature.own_time(place, time, larger);
+    EXPECT_NEAR(at_once.own_time(place, time, larger), exact, 1e-13 * std::abs(exact)) << time;
+  }
+}
+
 // A rim point of a wheel that rolls at 0.9: v is between 0.0 and 0.9.
 TEST(OwnTime, IsTheSameByPeriodsAsWithout) {
   const MatterMotion by_periods = wheel("0.9", turn), without = wheel("0.9", {});
