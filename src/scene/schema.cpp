@@ -105,16 +105,18 @@ std::string description_of(const Key& key) {
   return description;
 }
 
+// Beside a $ref older checkers see nothing else: it stands within an anyOf. No allOf: of that the language
+// server of taplo shows no description, and it never ends when it completes keys.
 Json key_schema(const Key& key) {
   Json schema = Json::object();
-  schema.add("description", Json::text(description_of(key)));
-  if (key.forms.size() == 1) {
-    schema.add("allOf", Json::array({form_schema(key, key.forms.front())}));
+  if (key.forms.size() == 1 && key.forms.front().kind != ValueKind::table) {
+    schema = form_schema(key, key.forms.front());
   } else {
     std::vector<Json> forms;
     for (const ValueForm& form : key.forms) forms.push_back(form_schema(key, form));
     schema.add("anyOf", Json::array(forms));
   }
+  schema.add("description", Json::text(description_of(key)));
   add_default(schema, key);
   return schema;
 }
@@ -213,7 +215,9 @@ Json table_schema(const KeyTable& table) {
     for (const std::string_view choice : find_key(table, table.selector)->choices) {
       variants.push_back(variant_schema(table, choice));
     }
-    schema.add("allOf", Json::array(variants));
+    // Always: an allOf of the table itself would hide its keys as above.
+    schema.add("if", of_type("object"));
+    schema.add("then", std::move(Json::object().add("allOf", Json::array(variants))));
   }
   // Not unevaluatedProperties, which would see the keys that a variant adds: editors' checkers ignore it.
   schema.add("additionalProperties", Json::boolean(false));
@@ -234,7 +238,8 @@ bool is_variant(const KeyTable& table) {
 std::string json_schema() {
   Json definitions = Json::object();
   Json expression = of_type("string");
-  expression.add("description",
+  // No description, which editors would show beside that of each key.
+  expression.add("title",
                  Json::text("An expression of `t`, `frame` and the parameters: \"2*t + sin(pi*t)\"."));
   definitions.add("expression", std::move(expression));
   for (const KeyTable& table : key_tables()) {
