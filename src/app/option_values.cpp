@@ -148,7 +148,9 @@ Result<std::vector<std::string>> parse_aovs(std::string_view text) {
   auto list = parse_list(text);
   if (!list.ok()) return list;
   for (const std::string& name : list.value()) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) return not_one_of(aov_words(), name);
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      return not_one_of(list.value().size() == 1 ? aov_words() : names, name);
+    }
   }
   return list;
 }

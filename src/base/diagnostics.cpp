@@ -116,11 +116,15 @@ std::string format(const Diagnostic& diagnostic) {
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates) {
   const std::size_t limit = std::max<std::size_t>(1, word.size() / 3 + 1);
+  const auto begins_alike = [&](const std::string& candidate) {
+    return std::ranges::mismatch(word, candidate).in1 - word.begin();
+  };
   std::string best;
   std::size_t best_distance = limit + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(word, candidate);
-    if (distance < best_distance) {
+    const bool as_near = !best.empty() && distance == best_distance;
+    if (distance < best_distance || (as_near && begins_alike(candidate) > begins_alike(best))) {
       best = candidate;
       best_distance = distance;
     }

@@ -43,6 +43,7 @@ std::string hint_for_character(std::string_view character) {
   if (character == "÷") return "write / for division";
   if (character == "²") return "write ^2";
   if (character == "π") return "write pi";
+  if (character == "=") return "a formula has one side: instead of f = g write f - g, which is 0 there";
   if (character == "%") return "write mod(a, b) for the remainder";
   return {};
 }

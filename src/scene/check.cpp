@@ -129,20 +129,29 @@ class Checker {
       for (const ValueForm& candidate : key.forms) expected.push_back(form_words(candidate));
       error(node.place,
             "'" + std::string(key.name) + "' must be " + listed(expected) + ", not " + kind_words(node),
-            heading_hint(key));
+            form_hint(key, node));
       node.value = Invalid{};
       return;
     }
     value_of_form(node, key, *form, where);
   }
 
-  // How the heading of a table is written, for those who miscounted its brackets.
-  static std::string heading_hint(const Key& key) {
-    const ValueForm& form = key.forms.back();
+  // How the heading of a table is written, for those who miscounted its brackets; what is in a table; which
+  // words there are.
+  static std::string form_hint(const Key& key, const Node& node) {
     const std::string name(key.name);
-    if (form.kind == ValueKind::tables) return "each one begins with [[" + name + "]]";
-    if (form.kind == ValueKind::named_tables) return "each one begins with [" + name + ".NAME]";
-    return {};
+    const ValueKind last = key.forms.back().kind;
+    if (last == ValueKind::tables) return "each one begins with [[" + name + "]]";
+    if (last == ValueKind::named_tables) return "each one begins with [" + name + ".NAME]";
+    if (!key.choices.empty()) return "it is one of " + listed({key.choices.begin(), key.choices.end()});
+    const auto form = std::ranges::find(key.forms, ValueKind::table, &ValueForm::kind);
+    if (form == key.forms.end()) return {};
+    const bool is_heading =
+        node.array() != nullptr && !node.array()->empty() && node.array()->front().table() != nullptr;
+    if (is_heading) return "there is one: its heading is [" + name + "]";
+    std::vector<std::string> names;
+    for (const Key& its : find_table(form->table)->keys) names.emplace_back(its.name);
+    return "its keys are " + listed(names, "and");
   }
 
   void value_of_form(Node& node, const Key& key, const ValueForm& form, const std::string& where) {
@@ -196,8 +205,8 @@ class Checker {
                                  : "write it as shape = \"implicit\" with a formula f");
     }
     const std::vector<std::string> names(key.choices.begin(), key.choices.end());
-    std::string hint = did_you_mean(text, names);
-    if (hint.empty()) hint = "it is one of " + listed(names);
+    const std::string near = did_you_mean(text, names);
+    const std::string hint = (near.empty() ? "" : near + " ") + "it is one of " + listed(names);
     error(node.place, "'" + text + "' is not a value of '" + std::string(key.name) + "'", hint);
   }
 

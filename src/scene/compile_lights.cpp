@@ -87,6 +87,10 @@ void compile_light(Compilation& c, const Node& node) {
     read_strength(table, "irradiance", light);
   } else if (type == "ambient") {
     light.kind = LightKind::ambient;
+    if (table.has("position")) {
+      c.values.diagnostics.warning(c.values.description.span(table.place("position")),
+                                   "an ambient light comes from everywhere: its 'position' changes nothing");
+    }
     read_strength(table, "radiance", light);
   } else {
     if (type == "spot") light.cone = read_cone(table, c.scene.c);

@@ -36,6 +36,22 @@ std::shared_ptr<const LoadedModel> model_of(Compilation& c, const TableView& tab
   return nullptr;
 }
 
+void require_closed(const TableView& table, std::string_view key, const Mesh& mesh, const std::string& what) {
+  if (mesh.is_closed()) return;
+  table.error(key,
+              "the mesh is not closed, and cannot be " + what +
+                  ": not each of its edges is that of two triangles that go along it in opposite ways",
+              "close its holes and make its normals consistent in the program that it comes from");
+}
+
+void warn_without_texture_coordinates(const TableView& table, const Mesh& mesh) {
+  if (!mesh.data().texture.empty()) return;
+  table.values().diagnostics.warning(
+      table.values().description.span(table.place("file")),
+      "the mesh has no texture coordinates: all of it shows one place of its texture or checker",
+      "lay it out (UV) in the program that it comes from, or give it a color");
+}
+
 bool has_materials_of_file(const TableView& table) {
   const Node* written = table.node_of("material");
   return table.text("shape") == "mesh" && written != nullptr && written->text() != nullptr &&

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "backlight/base/memory.h"
+#include "compile_mesh.h"
 #include "compile_motion.h"
 #include "compile_shapes.h"
 
@@ -262,6 +263,8 @@ class ObjectCompiler {
     } else if (in_motion) {
       keys.error("material", "glass that moves by formulas of t, or a rocket, is not computed",
                  "give it a velocity, or a frame in which it rests");
+    } else if (shape.mesh) {
+      require_closed(keys, "shape", *shape.mesh, "of glass");
     }
   }
 

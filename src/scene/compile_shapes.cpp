@@ -52,7 +52,7 @@ class ShapeReader {
     if (!operation) {
       auto shape = single(table);
       if (!shape) return std::nullopt;
-      if (shape->values[0] == 1.0 && shape->mesh) take_members(table);
+      if (shape->mesh) take_material(table, *shape, material);
       return CompiledShape{*shape, members_, {}, centre_of(*shape)};
     }
     if (is_blend(table)) {
@@ -124,18 +124,12 @@ class ShapeReader {
       auto shape = operation ? blend(table, material, depth + 1) : single(table);
       if (!shape) return std::nullopt;
       tree.shape = *std::move(shape);
-      if (tree.shape.mesh && tree.shape.values[0] == 1.0) {
-        tree.member = take_members(table);
-      } else {
-        tree.member = operation ? 0 : member(material);
-      }
+      const auto own = tree.shape.mesh ? take_material(table, tree.shape, material) : std::nullopt;
+      tree.member = own ? *own : operation ? 0 : member(material);
       if (centre_of(tree.shape) != Vec3{0.0})
         tree.placement = tree.placement.around(Placement(centre_of(tree.shape)));
-      if (tree.shape.mesh && !tree.shape.mesh->is_closed()) {
-        table.error("shape",
-                    "the mesh is not closed, and cannot be part of a solid: not each of its edges is that of "
-                    "two triangles that go along it in opposite ways",
-                    "close its holes and make its normals consistent in the program that it comes from");
+      if (tree.shape.mesh) {
+        require_closed(table, "shape", *tree.shape.mesh, "part of a solid");
       } else if (!is_solid(tree.shape)) {
         table.error("shape", problem(tree), "a cylinder of little height has an inside");
       }
@@ -218,8 +212,13 @@ class ShapeReader {
 
   static Vec3 centre_of(const Shape& shape) { return shape.mesh ? shape.mesh->centre() : Vec3{0.0}; }
 
-  // Adds the materials of a mesh's own file as members; returns the first one's number.
-  int take_members(const TableView& table) {
+  // Of a mesh: adds the materials of its own file as members, if they are asked for, and returns the first
+  // one's number.
+  std::optional<int> take_material(const TableView& table, const Shape& shape, int material) {
+    if (shape.values[0] != 1.0) {
+      if (materials_.has_pattern(material)) warn_without_texture_coordinates(table, *shape.mesh);
+      return std::nullopt;
+    }
     const int first = static_cast<int>(members_.size());
     const auto own = materials_.of_model(table, *model_of(c_, table));
     members_.insert(members_.end(), own.begin(), own.end());

@@ -58,10 +58,10 @@ class Materials {
   std::vector<int> of_model(const TableView& object, const LoadedModel& model);
 
   /// Whether the material of this index is glass.
-  [[nodiscard]] bool is_glass(int material) const {
-    const auto& made = reuses_ ? plan_.made[static_cast<std::size_t>(material)]
-                               : materials_[static_cast<std::size_t>(material)];
-    return made.glass != nullptr;
+  [[nodiscard]] bool is_glass(int material) const { return made(material).glass != nullptr; }
+  /// Whether it has a texture or a checker.
+  [[nodiscard]] bool has_pattern(int material) const {
+    return made(material).texture != nullptr || made(material).checker != nullptr;
   }
 
   /// To be called after the last material: all of them, with the spectra of those made from RGB.
@@ -76,6 +76,10 @@ class Materials {
     std::optional<double> uv, ir;
   };
 
+  [[nodiscard]] const Material& made(int material) const {
+    const auto index = static_cast<std::size_t>(material);
+    return reuses_ ? plan_.made[index] : materials_[index];
+  }
   int add(const MaterialPlan::Place& place);
   void read(const MaterialPlan::Place& place);
   void read_of_file(const MaterialPlan::Place& place);

@@ -4,12 +4,27 @@
 #include "materials.h"
 
 namespace backlight {
+namespace {
+
+void warn_without_any(const TableView& object, const LoadedModel& model) {
+  const auto says_nothing = [usual = ModelMaterial{}](const auto& its) {
+    return its->name.empty() && its->texture.empty() && its->embedded_texture.empty() &&
+           its->color == usual.color && its->emission == usual.emission;
+  };
+  if (!std::ranges::all_of(model.materials, says_nothing)) return;
+  object.values().diagnostics.warning(object.values().description.span(object.place("material")),
+                                      "the mesh's file tells of no material: all of it is grey (0.8)");
+}
+
+}  // namespace
 
 std::vector<int> Materials::of_model(const TableView& object, const LoadedModel& model) {
   const Node* written = object.node_of("material");
   const auto known = plan_.of_meshes.find(written);
   if (known != plan_.of_meshes.end()) return known->second;
-  if (!model.missing.empty()) {
+  if (model.missing.empty()) {
+    warn_without_any(object, model);
+  } else {
     object.error("material",
                  "the mesh takes its materials from " + model.missing.string() + ", which is missing",
                  "put it there, or give a material of the scene");

@@ -26,8 +26,13 @@ ExtendedVec3 celerity_of_velocity(const TableView& table, std::string_view key, 
   const bool equal = rest.hi == 0.0 && rest.lo == 0.0;
   std::string message = "|" + name + "| = " + speed + (equal ? " is" : " exceeds") + " the speed of light";
   if (key == "velocity") message += ", c = " + number_text(c);
+  constexpr double no_share_of_c = 10.0;
+  const bool other_units = key == "velocity" && c == 1.0 && std::hypot(v.x, v.y, v.z) > no_share_of_c;
   table.error(key, message,
-              "nothing reaches the speed of light; for very fast things write gamma = ... with along");
+              other_units
+                  ? "velocities are in units in which the speed of light is the scene's c: write "
+                    "c = 299792458 for metres and seconds"
+                  : "nothing reaches the speed of light; for very fast things write gamma = ... with along");
   return {};
 }
 

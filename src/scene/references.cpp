@@ -106,6 +106,13 @@ class References {
           "the first at " + where(there->second));
   }
 
+  static std::string definition_hint(const std::string& kind, const std::vector<std::string>& names) {
+    constexpr std::size_t most_listed = 12;
+    const bool short_list = !names.empty() && names.size() <= most_listed;
+    return (short_list ? "there is " + listed(names, "and") + "; " : "") + "a table [" + kind +
+           ".NAME] defines one";
+  }
+
   void refer(Node& table, std::string_view key, const Definitions& definitions) {
     Entry* reference = find(table, key);
     if (reference == nullptr || reference->node.text() == nullptr) return;
@@ -124,7 +131,9 @@ class References {
     if (diagnostics_.error_count() < most_hints) {
       for (const auto& definition : definitions) names.push_back(definition.first);
     }
-    error(reference->node.place, "there is no " + kind + " '" + name + "'", did_you_mean(name, names));
+    std::string hint = did_you_mean(name, names);
+    if (hint.empty()) hint = definition_hint(kind, names);
+    error(reference->node.place, "there is no " + kind + " '" + name + "'", hint);
     reference->node.value = Invalid{};
   }
 

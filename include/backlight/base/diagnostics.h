@@ -55,8 +55,8 @@ class Diagnostics {
 /// the hint. No trailing newline.
 std::string format(const Diagnostic& diagnostic);
 
-/// The candidate nearest to `word` by edit distance (case ignored), or empty when none is near enough to be
-/// a plausible slip.
+/// The candidate nearest to `word` by edit distance (case ignored) and, of equally near ones, that which
+/// begins most alike; empty when none is near enough to be a plausible slip.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace backlight

@@ -63,7 +63,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadText{"min(1)", 1, 3, "'min' takes at least 2 arguments, not 1", ""},
                     BadText{"max(1, )", 8, 1, "expected a value, found ')'", ""},
                     BadText{"1e999", 1, 5, "the number 1e999 is outside the range of a double", ""},
-                    BadText{"t = 3", 3, 1, "unexpected '='", ""},  //
+                    BadText{"t = 3", 3, 1, "unexpected '='",
+                            "a formula has one side: instead of f = g write f - g, which is 0 there"},  //
                     BadText{"7 % 2", 3, 1, "unexpected '%'", "write mod(a, b) for the remainder"},
                     BadText{"2 × 3", 3, 1, "unexpected '×'", "write * for multiplication"},
                     BadText{"−2", 1, 1, "expected a value, found '−'",
