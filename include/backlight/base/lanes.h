@@ -63,7 +63,8 @@ struct Lanes {
 
   Lanes() = default;
   BACKLIGHT_LANES Lanes(Vec all) : v(all) {}
-  BACKLIGHT_LANES Lanes(double same) : v(Vec{} + same) {}  // NOLINT: a number is the same in every lane
+  /// The same in every lane. (0 is subtracted: adding it would turn -0 into 0, and so not be left out.)
+  BACKLIGHT_LANES Lanes(double same) : v(same - Vec{}) {}  // NOLINT: a number is one of any lanes
 
   static BACKLIGHT_LANES Lanes load(const double* from) {
     Lanes r;
@@ -127,9 +128,6 @@ BACKLIGHT_LANES Lanes<N> select(LaneMask<N> mask, Lanes<N> a, Lanes<N> b) {
 template <int N>
 BACKLIGHT_LANES unsigned bits(LaneMask<N> mask) {
   if constexpr (N == 1) return mask.v ? 1U : 0U;
-#if defined(__AVX512DQ__)
-  if constexpr (N == 8) return static_cast<unsigned>(_mm512_movepi64_mask((__m512i)mask.v));
-#endif
 #if defined(__AVX__)
   if constexpr (N == 4) return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask.v));
 #endif
@@ -310,3 +308,5 @@ struct LaneMatrix {
 };
 
 }  // namespace backlight
+
+#include "backlight/base/lanes_avx512.h"
