@@ -41,8 +41,10 @@ class MeshWalk : TreeWalk<N> {
     for (int g = 0; g < 6; ++g) {
       if (groups[g] == 0 || !walk.begin(g / 2, groups[g])) continue;
       visit(
-          question.mesh.nodes,
-          walk.pyramid_, [&](int number) __attribute__((always_inline)) { return walk.meet(number); });
+          question.mesh.nodes, walk.pyramid_, [&](int number) __attribute__((always_inline)) {
+            walk.meet(number);
+            return false;
+          });
     }
   }
 
@@ -70,7 +72,12 @@ class MeshWalk : TreeWalk<N> {
 
  private:
   MeshWalk(const MeshQuestion& question, const LocalLines& lines, double* t, double* triangle)
-      : question_(question), lines_(lines), t_(t), triangle_(triangle) {
+      : question_(question),
+        lines_(lines),
+        t_(t),
+        triangle_(triangle),
+        padded_(static_cast<int>(lines.padded())),
+        used_((padded_ / N + N - 1) / N * N) {
     for (int k = 0; k < 3; ++k) {
       const double width = question.mesh.high[k] - question.mesh.low[k];
       size_ = width > size_ ? width : size_;
@@ -95,115 +102,103 @@ class MeshWalk : TreeWalk<N> {
     }
   }
 
-  /// Makes the pyramids of some lines, from where they get to the mesh or begin. False: they are not numbers.
+  /// Makes the bounds of some lines, as they are beyond a plane across their axis in front of which nothing
+  /// counts. False: they are not numbers, or nothing counts.
   bool begin(int axis, std::uint64_t active) {
-    open_ = active;
+    active_ = active;
     a_ = axis;
     b_ = (axis + 1) % 3;
     c_ = (axis + 2) % 3;
-    rays_.padded = static_cast<int>(lines_.padded());
-    rays_.one_origin = false;
-    const MeshView& mesh = question_.mesh;
-    const double room = 1e-12 * size_;
-    for (std::size_t i = 0; i < lines_.padded(); i += N) {
-      const V3 d = load3<V>(lines_.direction, i), p = load3<V>(lines_.point, i);
-      const V inverse = V(1.0) / V::load(lines_.direction[a_] + i);
-      const V at_low = (V(mesh.low[a_]) - V::load(lines_.point[a_] + i)) * inverse;
-      const V at_high = (V(mesh.high[a_]) - V::load(lines_.point[a_] + i)) * inverse;
-      const V start =
-          (V(question_.lambda_min) - V::load(lines_.lambda_centre + i) - V::load(lines_.lambda_shift + i)) /
-          V::load(lines_.lambda_per_length + i);
-      const V stop =
-          (V(question_.lambda_max) - V::load(lines_.lambda_centre + i) - V::load(lines_.lambda_shift + i)) /
-          V::load(lines_.lambda_per_length + i);
-      const V from = larger(start, smaller(at_low, at_high)) - V(room);
-      from.store(from_ + i);
-      ((stop - from) + V(room)).store(reach_ + i);
-      (V::load(lines_.direction[b_] + i) * inverse).store(shear_b_ + i);
-      (V::load(lines_.direction[c_] + i) * inverse).store(shear_c_ + i);
+    const double* const along = lines_.direction[a_];
+    sign_ = along[__builtin_ctzll(active)] < 0.0 ? -1.0 : 1.0;
+    const double nearest = sign_ > 0.0 ? question_.mesh.low[a_] : -question_.mesh.high[a_];
+    V first(infinity), terms(0.0);
+    for (int i = 0; i < padded_; i += N) {
+      const unsigned lanes = lanes_of(active, i);
+      const V3 point = load3<V>(lines_.point, i);
+      terms = larger(magnitude(point.x), larger(magnitude(point.y), larger(magnitude(point.z), terms)));
+      const V p = V(sign_) * V::load(lines_.point[a_] + i), d = V(sign_) * V::load(along + i);
+      if ((bits(d > V(0.0)) & lanes) != lanes) return false;
+      const V per_lambda = V(1.0) / V::load(lines_.lambda_per_length + i);
+      const auto depth = [&](double lambda) __attribute__((always_inline)) {
+        const V beyond = V(lambda) - V::load(lines_.lambda_centre + i) - V::load(lines_.lambda_shift + i);
+        return p + beyond * per_lambda * d;
+      };
+      const V begin = larger(depth(question_.lambda_min), V(nearest));
+      first = smaller(pick(lanes, begin, first), first);
+      begin.store(begin_ + i);
+      depth(question_.lambda_max).store(end_ + i);
+      pick(lanes, V(question_.lambda_max), V(-infinity)).store(last_ + i);
+      const V inverse = V(1.0) / V::load(along + i);
       inverse.store(inverse_ + i);
-      store3(p + from * d, rays_.origin, i);
-      store3(d, rays_.direction, i);
+      (V::load(lines_.direction[b_] + i) * inverse).store(shear_[0] + i);
+      (V::load(lines_.direction[c_] + i) * inverse).store(shear_[1] + i);
     }
-    if (!pyramid_.make(rays_, active, reach_)) return false;
-    used_ = (rays_.padded / N + N - 1) / N * N;
-    for (int r = 0; r < used_; ++r) make_register(r);
+    far_room_ = 1e-12 * size_;
+    const double depth = least_of(first) - far_room_;
+    if (!(depth < infinity)) return false;
+    plane_ = sign_ * depth;
+    bound(6e-15 * (most_of(terms) + size_));
     return true;
   }
 
-  // A pyramid for each register of lines, as arrays by register: one box is asked of several.
+  // Of each register of lines, as arrays by register: one triangle is asked of several.
   static constexpr int registers = sheet_size / N;
   struct Ends {
-    alignas(64) double low[registers < N ? N : registers], high[registers < N ? N : registers];
-
-    void set(int r, double least, double most, double room) {
-      low[r] = least - room;
-      high[r] = most + room;
-    }
+    alignas(64) double low[registers], high[registers];
   };
 
-  void make_register(int r) {
-    const int i = r * N;
-    const unsigned lanes = i < rays_.padded ? lanes_of(open_, i) : 0;
-    far_[r] = -infinity;
-    if (lanes == 0) return;
-    double terms = 0.0, least[3], most[3];
-    for (int k = 0; k < 3; ++k) {
-      const V at = V::load(rays_.origin[k] + i);
-      least[k] = least_of(pick(lanes, at, V(infinity)));
-      most[k] = most_of(pick(lanes, at, V(-infinity)));
-      const double size = most[k] > -least[k] ? most[k] : -least[k];
-      terms = size > terms ? size : terms;
-    }
-    for (int k = 0; k < 3; ++k) starts_[k].set(r, least[k], most[k], 6e-15 * (terms + size_));
-    far_room_[r] = 1e-12 * size_;
-    const double backwards = lines_.direction[a_][i + __builtin_ctz(lanes)] < 0.0 ? -1.0 : 1.0;
-    forwards_ = backwards > 0.0;
-    const double* const shears[2] = {shear_b_ + i, shear_c_ + i};
+  /// Where the lines begin and end, cross the plane and how they slope, by register and of all together.
+  void bound(double room) {
+    double low[3], high[3], slope[2][2];
+    low[0] = high[0] = plane_;
     for (int k = 0; k < 2; ++k) {
-      const V slope = V(backwards) * V::load(shears[k]);
-      slopes_[k].set(r, least_of(pick(lanes, slope, V(infinity))), most_of(pick(lanes, slope, V(-infinity))),
-                     8e-15);  // slopes are no greater than 1
+      alignas(64) double at_plane[sheet_size];
+      for (int i = 0; i < padded_; i += N) {
+        (V::load(lines_.point[k == 0 ? b_ : c_] + i) +
+         (V(plane_) - V::load(lines_.point[a_] + i)) * V::load(shear_[k] + i))
+            .store(at_plane + i);
+      }
+      set_ends(at_plane, room, across_[k], low[k + 1], high[k + 1]);
+      set_ends(shear_[k], 8e-15, slope_[k], slope[k][0], slope[k][1]);  // they are no greater than 1
     }
-    set_far(r, lanes);
+    pyramid_.make({a_, b_, c_}, sign_, low, high, slope);
+    for (int r = 0; r < used_; r += N) (-most_of_each(begin_, -1.0, r) - V(far_room_)).store(near_ + r);
+    set_far();
   }
 
-  void set_far(int r, unsigned lanes) {
-    const int i = r * N;
-    const V way = V::load(reach_ + i) * magnitude(V::load(lines_.direction[a_] + i));
-    far_[r] = most_of(pick(lanes, way, V(0.0))) * (1.0 + 1e-14) + far_room_[r];
-  }
-
-  /// Of all registers.
-  [[nodiscard]] BACKLIGHT_LANES double farthest() const {
-    V most = V::load(far_);
-    for (int r = N; r < used_; r += N) most = larger(most, V::load(far_ + r));
-    return most_of(most);
-  }
-
-  /// Which registers a box may be met by.
-  BACKLIGHT_LANES std::uint64_t registers_at(const double (&low)[3], const double (&high)[3]) const {
-    std::uint64_t met = 0;
+  void set_ends(const double* values, double room, Ends& ends, double& low, double& high) const {
+    V least(infinity), most(-infinity);
     for (int r = 0; r < used_; r += N) {
-      const V lo(low[a_]), hi(high[a_]);
-      const V first = V::load(starts_[a_].low + r), last = V::load(starts_[a_].high + r);
-      const V begin = forwards_ ? lo - last : first - hi;
-      const V end = forwards_ ? hi - first : last - lo;
-      const V from = larger(begin, V(0.0));
-      const Mask there = (end >= V(0.0)) & (begin <= V::load(far_ + r)) &
-                         between(low[b_], high[b_], starts_[b_], slopes_[0], r, from, end) &
-                         between(low[c_], high[c_], starts_[c_], slopes_[1], r, from, end);
-      met |= static_cast<std::uint64_t>(bits(there)) << r;
+      const V lows = -most_of_each(values, -1.0, r) - V(room), highs = most_of_each(values, 1.0, r) + V(room);
+      lows.store(ends.low + r);
+      highs.store(ends.high + r);
+      least = smaller(least, lows);
+      most = larger(most, highs);
     }
-    return met;
+    low = least_of(least);
+    high = most_of(most);
   }
 
-  static BACKLIGHT_LANES Mask between(double low, double high, const Ends& starts, const Ends& slopes, int r,
-                                      V from, V end) {
-    const V least = V::load(slopes.low + r), most = V::load(slopes.high + r), zero(0.0);
-    const V lowest = least * select(least >= zero, from, end);
-    const V highest = most * select(most >= zero, end, from);
-    return (V(high) - V::load(starts.low + r) >= lowest) & (V(low) - V::load(starts.high + r) <= highest);
+  /// How far the lines go at most, by register and of all together.
+  BACKLIGHT_LANES void set_far() {
+    V most(-infinity);
+    for (int r = 0; r < used_; r += N) {
+      const V far = most_of_each(end_, 1.0, r) + V(far_room_);
+      far.store(far_ + r);
+      most = larger(most, far);
+    }
+    pyramid_.far = most_of(most) - sign_ * plane_;
+  }
+
+  /// The most that `sign` times the values of lines are in each of N registers, from register r on.
+  BACKLIGHT_LANES V most_of_each(const double* values, double sign, int r) const {
+    V rows[N];
+    for (int k = 0; k < N; ++k) {
+      const int i = (r + k) * N;
+      rows[k] = pick(lanes_of(active_, i), V(sign) * V::load(values + i), V(-infinity));
+    }
+    return backlight::most_of_each(rows);
   }
 
   struct Corners {
@@ -217,47 +212,66 @@ class MeshWalk : TreeWalk<N> {
     return corners_of(question_.mesh, number);
   }
 
-  /// Tries a triangle on the lines whose registers may meet it; true: no line is left.
-  BACKLIGHT_LANES bool meet(int number) {
-    const Corners corners = corners_of(number);
-    double low[3], high[3];
-    for (int k = 0; k < 3; ++k) {
-      const double a = corners.at[0][k], b = corners.at[1][k], c = corners.at[2][k];
-      const double less = a < b ? a : b, more = a < b ? b : a;
-      low[k] = c < less ? c : less;
-      high[k] = c > more ? c : more;
+  /// Which registers a triangle may be met by: as the lines see its corners from the plane.
+  BACKLIGHT_LANES std::uint64_t registers_at(const Corners& corners) const {
+    double beyond[3];
+    for (int k = 0; k < 3; ++k) beyond[k] = corners.at[k][a_] - plane_;
+    const double a = sign_ * corners.at[0][a_], b = sign_ * corners.at[1][a_], c = sign_ * corners.at[2][a_];
+    const double less = a < b ? a : b, more = a < b ? b : a;
+    const V least(less < c ? less : c), most(more > c ? more : c);
+    std::uint64_t met = 0;
+    for (int r = 0; r < used_; r += N) {
+      const Mask there = (most >= V::load(near_ + r)) & (least <= V::load(far_ + r)) &
+                         between(corners, b_, beyond, across_[0], slope_[0], r) &
+                         between(corners, c_, beyond, across_[1], slope_[1], r);
+      met |= static_cast<std::uint64_t>(bits(there)) << r;
     }
-    bool nearer = false;
-    for (std::uint64_t met = registers_at(low, high); met != 0; met &= met - 1) {
-      nearer = meet(corners, number, __builtin_ctzll(met)) || nearer;
-    }
-    if (question_.existence_is_enough) return open_ == 0;
-    if (nearer) pyramid_.shorten(farthest());
-    return false;
+    return met;
   }
 
-  BACKLIGHT_LANES bool meet(const Corners& corners, int number, int r) {
-    const int i = r * N;
-    const unsigned open = lanes_of(open_, i);
+  static BACKLIGHT_LANES Mask between(const Corners& corners, int axis, const double (&beyond)[3],
+                                      const Ends& across, const Ends& slope, int r) {
+    const V low = V::load(slope.low + r), high = V::load(slope.high + r);
+    V least(infinity), most(-infinity);
+    for (int k = 0; k < 3; ++k) {
+      const V at(corners.at[k][axis]), way(beyond[k]);
+      const bool forwards = beyond[k] >= 0.0;
+      least = smaller(least, at - way * (forwards ? high : low));
+      most = larger(most, at - way * (forwards ? low : high));
+    }
+    return (least <= V::load(across.high + r)) & (most >= V::load(across.low + r));
+  }
+
+  /// Tries a triangle on the lines whose registers may meet it.
+  BACKLIGHT_LANES void meet(int number) {
+    const Corners corners = corners_of(number);
+    unsigned met = 0;
+    for (std::uint64_t left = registers_at(corners); left != 0; left &= left - 1) {
+      met |= meet(corners, number, __builtin_ctzll(left) * N);
+    }
+    if (met != 0) set_far();
+  }
+
+  /// Without branches, which hardly any order of triangles makes foreseeable.
+  BACKLIGHT_LANES unsigned meet(const Corners& corners, int number, int i) {
     V at;
     const Mask crossed = crossing(corners, i, at);
-    if ((bits(crossed) & open) == 0) return false;
     const V lambda = V::load(lines_.lambda_centre + i) +
                      (V::load(lines_.lambda_shift + i) + at * V::load(lines_.lambda_per_length + i));
     const V before = V::load(t_ + i), whose = V::load(triangle_ + i), who(static_cast<double>(number));
-    const Mask counts = crossed & (lambda > V(question_.lambda_min)) & (lambda < V(question_.lambda_max));
-    const unsigned nearer = bits(counts & ((at < before) | ((at == before) & (who < whose)))) & open;
-    if (nearer == 0) return false;
-    pick(nearer, at, before).store(t_ + i);
-    pick(nearer, who, whose).store(triangle_ + i);
+    const V last = V::load(last_ + i), end = V::load(end_ + i);
+    const Mask nearer = crossed & (lambda > V(question_.lambda_min)) & (lambda < last) &
+                        ((at < before) | ((at == before) & (who < whose)));
+    select(nearer, at, before).store(t_ + i);
+    select(nearer, who, whose).store(triangle_ + i);
     if (question_.existence_is_enough) {
-      open_ &= ~(static_cast<std::uint64_t>(nearer) << i);
-      if ((open & ~nearer) == 0) far_[r] = -infinity;
-      return true;
+      select(nearer, V(-infinity), last).store(last_ + i);
+      select(nearer, V(-infinity), end).store(end_ + i);
+    } else {
+      const V depth = V(sign_) * (V::load(lines_.point[a_] + i) + at * V::load(lines_.direction[a_] + i));
+      select(nearer, depth, end).store(end_ + i);
     }
-    pick(nearer, at - V::load(from_ + i), V::load(reach_ + i)).store(reach_ + i);
-    set_far(r, open);
-    return true;
+    return bits(nearer);
   }
 
   /// Which lanes of the register cross the triangle, and where.
@@ -268,32 +282,30 @@ class MeshWalk : TreeWalk<N> {
     const TriangleEdges<V> e = triangle_edges(
         corner(corners.at[0]), corner(corners.at[1]), corner(corners.at[2]),
         V3(V::load(lines_.point[a_] + i), V::load(lines_.point[b_] + i), V::load(lines_.point[c_] + i)),
-        V::load(shear_b_ + i), V::load(shear_c_ + i));
+        V::load(shear_[0] + i), V::load(shear_[1] + i));
     const V zero(0.0);
-    const Mask inside = ((e.side_u > zero) & (e.side_v > zero) & (e.side_w > zero)) |
-                        ((e.side_u < zero) & (e.side_v < zero) & (e.side_w < zero));
-    if (bits(inside) == 0) return inside;
     const V sum = e.u * e.at_a + e.v * e.at_b + e.w * e.at_c;
     t = sum / (e.u + e.v + e.w) * V::load(inverse_ + i);
-    return inside;
+    return ((e.side_u > zero) & (e.side_v > zero) & (e.side_w > zero)) |
+           ((e.side_u < zero) & (e.side_v < zero) & (e.side_w < zero));
   }
 
   const MeshQuestion& question_;
   const LocalLines& lines_;
   double* t_;
   double* triangle_;
-  double size_ = 0.0;
-  std::uint64_t open_ = 0;
+  int padded_, used_;  // lines; registers, rounded up to what is looked at together
+  double size_ = 0.0, far_room_ = 0.0;
+  std::uint64_t active_ = 0;
   int a_ = 0, b_ = 1, c_ = 2;
-  bool forwards_ = true;
-  int used_ = 0;   // registers, rounded up to what is looked at together
-  RaySheet rays_;  // from where they get to the mesh
-  alignas(64) double from_[sheet_size],
-      reach_[sheet_size];  // their lines' parameters there; from there to what is met
-  alignas(64) double shear_b_[sheet_size], shear_c_[sheet_size], inverse_[sheet_size];
+  double sign_ = 1.0, plane_ = 0.0;  // the way that lines go along the axis; where they are looked at from
+  // By line. What is before `begin` and beyond `end`, along the axis, cannot count; nor does λ from `last`
+  // on.
+  alignas(64) double begin_[sheet_size], end_[sheet_size], last_[sheet_size];
+  alignas(64) double shear_[2][sheet_size], inverse_[sheet_size];
   Pyramid pyramid_;
-  Ends starts_[3], slopes_[2];
-  alignas(64) double far_[registers < N ? N : registers], far_room_[registers < N ? N : registers];
+  Ends across_[2], slope_[2];
+  alignas(64) double near_[registers], far_[registers];
 };
 
 }  // namespace backlight

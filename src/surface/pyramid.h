@@ -53,11 +53,24 @@ class TreeWalk {
       return make(begin, back ? -1.0 : 1.0, rays, active, nullptr, lambda_max);
     }
 
+    /// Of rays the ends of whose origins and slopes are known, with room for their rounding: along the first
+    /// of the axes, as `sign` tells, and across, by that coordinate.
+    void make(const int (&axis)[3], double sign, const double (&low)[3], const double (&high)[3],
+              const double (&slope)[2][2]) {
+      for (int k = 0; k < 3; ++k) {
+        axis_[k] = axis[k];
+        low_[axis[k]] = low[k];
+        high_[axis[k]] = high[k];
+      }
+      sign_[axis[0]] = sign;
+      for (int k = 0; k < 2; ++k) {
+        slope_[k][0] = sign > 0.0 ? slope[k][0] : -slope[k][1];
+        slope_[k][1] = sign > 0.0 ? slope[k][1] : -slope[k][0];
+      }
+    }
+
     /// How far along the axis it reaches.
     double far = infinity;
-
-    /// Reaches so far at most, from wherever the rays begin.
-    void shorten(double along_axis) { far = along_axis + reach_room_; }
 
     /// The same once the rays have met something.
     void shorten(const RaySheet& rays, std::uint64_t active, const double* lambda) {

@@ -241,6 +241,43 @@ BACKLIGHT_LANES double most_of(Lanes<N> a) {
   return -least_of(-a);
 }
 
+/// The most of each of as many registers as they have lanes, that of the i-th in lane i.
+template <int N>
+BACKLIGHT_LANES Lanes<N> most_of_each(const Lanes<N> (&rows)[N]) {
+  // Pairs of lanes, of pairs of registers, until each lane is of all lanes of one register.
+  if constexpr (N == 1) {
+    return rows[0];
+  } else if constexpr (N == 2) {
+    return larger(Lanes<N>(__builtin_shufflevector(rows[0].v, rows[1].v, 0, 2)),
+                  Lanes<N>(__builtin_shufflevector(rows[0].v, rows[1].v, 1, 3)));
+  } else if constexpr (N == 4) {
+    Lanes<N> pairs[2];
+    for (int i = 0; i < 2; ++i) {
+      const auto a = rows[2 * i].v, b = rows[2 * i + 1].v;
+      pairs[i] = larger(Lanes<N>(__builtin_shufflevector(a, b, 0, 4, 2, 6)),
+                        Lanes<N>(__builtin_shufflevector(a, b, 1, 5, 3, 7)));
+    }
+    const auto a = pairs[0].v, b = pairs[1].v;
+    return larger(Lanes<N>(__builtin_shufflevector(a, b, 0, 1, 4, 5)),
+                  Lanes<N>(__builtin_shufflevector(a, b, 2, 3, 6, 7)));
+  } else {
+    Lanes<N> pairs[4], fours[2];
+    for (int i = 0; i < 4; ++i) {
+      const auto a = rows[2 * i].v, b = rows[2 * i + 1].v;
+      pairs[i] = larger(Lanes<N>(__builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14)),
+                        Lanes<N>(__builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15)));
+    }
+    for (int i = 0; i < 2; ++i) {
+      const auto a = pairs[2 * i].v, b = pairs[2 * i + 1].v;
+      fours[i] = larger(Lanes<N>(__builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13)),
+                        Lanes<N>(__builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15)));
+    }
+    const auto a = fours[0].v, b = fours[1].v;
+    return larger(Lanes<N>(__builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11)),
+                  Lanes<N>(__builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15)));
+  }
+}
+
 /// Three coordinates of N things.
 template <class V>
 struct LaneVec3 {
