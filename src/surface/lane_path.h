@@ -15,12 +15,56 @@ struct PathMoment {
   LaneVec3<V> place, velocity, acceleration;
 };
 
+/// Several paths, one to each lane.
 template <class V>
-BACKLIGHT_LANES PathMoment<V> moment_of(const LanePath& path, V time) {
+struct LanePaths {
+  static constexpr int most_turns = 4;
+  struct Turn {
+    V rate;
+    LaneVec3<V> cosine, sine;
+  };
+  LaneVec3<V> start, velocity;
+  Turn turns[most_turns];
+  int count = 0;
+  V speed, acceleration, doubt, doubt_rate;
+
+  explicit LanePaths(const LanePath* const* paths) {
+    for (int i = 0; i < V::width; ++i) count = paths[i]->count > count ? paths[i]->count : count;
+    const auto lanes = [&](auto number) {
+      double numbers[V::width];
+      for (int i = 0; i < V::width; ++i) numbers[i] = number(*paths[i]);
+      return V::load(numbers);
+    };
+    const auto lanes3 = [&](auto three) {
+      return LaneVec3<V>{lanes([&](const LanePath& path) { return three(path)[0]; }),
+                         lanes([&](const LanePath& path) { return three(path)[1]; }),
+                         lanes([&](const LanePath& path) { return three(path)[2]; })};
+    };
+    start = lanes3([](const LanePath& path) { return path.start; });
+    velocity = lanes3([](const LanePath& path) { return path.velocity; });
+    for (int k = 0; k < count; ++k) {
+      const auto turn = [k](const LanePath& path) -> const LanePath::Turn& {
+        static constexpr LanePath::Turn none{};
+        return k < path.count ? path.turns[k] : none;
+      };
+      turns[k].rate = lanes([&](const LanePath& path) { return turn(path).rate; });
+      turns[k].cosine = lanes3([&](const LanePath& path) { return turn(path).cosine; });
+      turns[k].sine = lanes3([&](const LanePath& path) { return turn(path).sine; });
+    }
+    speed = lanes([](const LanePath& path) { return path.speed; });
+    acceleration = lanes([](const LanePath& path) { return path.acceleration; });
+    doubt = lanes([](const LanePath& path) { return path.doubt; });
+    doubt_rate = lanes([](const LanePath& path) { return path.doubt_rate; });
+  }
+};
+
+/// Of a LanePath or of LanePaths.
+template <class V, class Path>
+BACKLIGHT_LANES PathMoment<V> moment_of(const Path& path, V time) {
   PathMoment<V> at{LaneVec3<V>(path.start) + time * LaneVec3<V>(path.velocity), LaneVec3<V>(path.velocity),
                    LaneVec3<V>(V(0.0), V(0.0), V(0.0))};
   for (int i = 0; i < path.count; ++i) {
-    const LanePath::Turn& turn = path.turns[i];
+    const auto& turn = path.turns[i];
     const LaneVec3<V> cosine(turn.cosine), sine(turn.sine);
     const V rate(turn.rate);
     const Waves<V> wave = waves(rate * time);
@@ -39,8 +83,8 @@ inline WavePath::Motion moment_of(const LanePath& path, double time) {
 }
 
 /// How far what this says and the formulas may be apart for their rounding, that of the time among it.
-template <class V>
-BACKLIGHT_LANES V doubt_of(const LanePath& path, V time) {
+template <class V, class Path>
+BACKLIGHT_LANES V doubt_of(const Path& path, V time) {
   return V(path.doubt) + V(path.doubt_rate) * magnitude(time);
 }
 

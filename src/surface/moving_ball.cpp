@@ -1,8 +1,11 @@
 #include "moving_ball.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+
+#include "passing_lanes.h"
+#include "surface_kernels.h"
 
 namespace backlight {
 namespace {
@@ -87,7 +90,6 @@ enum class Way { arrives, leaves };
 
 struct Moments {
   double first, last;
-  std::optional<MatterMotion::Centre> centre{};  ///< where they are the same, and that is known
 };
 
 /// Between these the centre is where light of the event meets it: the root of (29), which they enclose unless
@@ -106,7 +108,7 @@ Moments meeting_with_light(const MatterMotion& motion, const Vec3& place, double
     const Vec3 to = centre.place - place;
     const double length = glm::length(to);
     const double over = sign * (at - time) - length;  // the way of the light, over what it has to go
-    if (!(std::abs(over) > enough)) return {at, at, centre};
+    if (!(std::abs(over) > enough)) return {at, at};
     (sign * over > 0.0 ? high : low) = at;
     const double toward = length > 0.0 ? glm::dot(to, centre.velocity) / length : 0.0;
     const double next = at - over / (sign - toward);
@@ -119,21 +121,10 @@ Moments meeting_with_light(const MatterMotion& motion, const Vec3& place, double
   return {std::max(low, ball.begins), high};
 }
 
-/// For how long before and after the root of (29) |h| is below `reach`, at most, where the centre is then at
-/// `centre`: h goes by k = 1 ± ċ·u per time there, u towards it, and k changes by no more than (28a) and
-/// the turning of u say. Infinite where that is too much.
-double half_time_about(const MatterMotion& motion, const MatterMotion::Centre& centre, const Vec3& place,
-                       Way way, double reach) {
-  const Vec3 to = centre.place - place;
-  const double length = glm::length(to);
-  const double toward = glm::dot(to, centre.velocity) / length;
-  const double rate = way == Way::arrives ? 1.0 + toward : 1.0 - toward;
-  const double longest = 2.0 * reach / rate;
-  const double speed = motion.ball()->speed;
-  const double nearest = length - speed * longest;
-  const double change = motion.most_acceleration() + speed * speed / nearest;
-  const double under = rate * rate - 2.0 * change * reach;
-  return nearest > 0.0 && under > 0.0 ? 2.0 * reach / (rate + std::sqrt(under)) : infinite;
+/// Whether it is found, and all of it is of moments that count.
+bool is_known(const MatterMotion::Ball& ball, const Passing& passing, double until) {
+  return passing.half_time < infinite && passing.time - passing.half_time > ball.begins &&
+         passing.time + passing.half_time < until;
 }
 
 /// The passing that light of an event meets, and of others no farther than `apart` from it; no later than
@@ -147,19 +138,14 @@ Passing passing_of_light(const MatterMotion& motion, const Vec3& place, double t
       ball.radius + apart + 2.0 * (doubt + motion.near_centre_doubt(time)) + 1e-12 * std::abs(time);
   double early = time - reach;
   if (motion.is_quick()) {
-    // From where the waves are about.
-    const LanePath& path = *motion.path();
-    Vec3 about{path.start[0], path.start[1], path.start[2]};
-    for (int k = 0; k < 3; ++k) about[k] += time * path.velocity[k];
-    const double way_there = glm::length(about - place);
-    const double guess = way == Way::arrives ? time - way_there : time + way_there;
-    const Moments meeting = meeting_with_light(motion, place, time, way, doubt, guess);
-    const double middle = meeting.first;
-    const MatterMotion::Centre centre = meeting.centre ? *meeting.centre : motion.near_centre(middle);
-    const double half_time = half_time_about(motion, centre, place, way, reach);
-    if (half_time < infinite && middle - half_time > ball.begins && middle + half_time < until)
-      return passing_at(motion, centre, middle, half_time * (1.0 + 1e-9) + 1e-12 * std::abs(middle));
-    early = middle - reach;
+    using One = Lanes<1>;
+    const LanePassing<One> lane =
+        passing_of(*motion.path(), One(ball.radius),
+                   EventLight<One>{one_lane(place), One(time), One(apart), way == Way::arrives ? -1.0 : 1.0});
+    const Passing passing{lane.time.v, lane.half_time.v, vec3(lane.centre), vec3(lane.velocity),
+                          lane.radius.v};
+    if (is_known(ball, passing, until)) return passing;
+    if (std::isfinite(passing.time)) early = passing.time - reach;
   }
   const double first = meeting_with_light(motion, place, time - reach, way, doubt, early).first;
   const double soon = first + 2.0 * reach;
@@ -263,6 +249,38 @@ BoundingSphere lit_from(const MatterMotion& motion, const LightFlash& flash) {
   const Passing passing = passing_lit_from(motion, flash);
   if (passing.half_time < 0.0) return {};
   return sphere_of(passing, flash.place, flash.time);
+}
+
+void lit_from(std::span<const MatterMotion* const> motions, std::span<const LightFlash> flashes,
+              std::span<BoundingSphere> spheres) {
+  PassingSheet sheet;
+  std::array<std::size_t, PassingSheet::most> row{};
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const LanePath* path = motions[i]->path();
+    if (path == nullptr || path->count > LanePaths<Lanes<1>>::most_turns) {
+      spheres[i] = lit_from(*motions[i], flashes[i]);
+      continue;
+    }
+    const int at = sheet.count++;
+    row[static_cast<std::size_t>(at)] = i;
+    sheet.path[at] = path;
+    sheet.radius[at] = motions[i]->ball()->radius;
+    for (int k = 0; k < 3; ++k) sheet.place[k][at] = flashes[i].place[k];
+    sheet.start[at] = flashes[i].time;
+    sheet.apart[at] = flashes[i].apart;
+  }
+  surface_kernels().find_passings(sheet);
+  for (int at = 0; at < sheet.count; ++at) {
+    const std::size_t i = row[static_cast<std::size_t>(at)];
+    const LightFlash& flash = flashes[i];
+    Passing passing{.time = sheet.time[at], .half_time = sheet.half_time[at], .radius = sheet.reach[at]};
+    for (int k = 0; k < 3; ++k) {
+      passing.centre[k] = sheet.centre[k][at];
+      passing.velocity[k] = sheet.velocity[k][at];
+    }
+    const bool known = is_known(*motions[i]->ball(), passing, flash.until);
+    spheres[i] = known ? sphere_of(passing, flash.place, flash.time) : lit_from(*motions[i], flash);
+  }
 }
 
 }  // namespace backlight

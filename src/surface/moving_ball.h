@@ -1,6 +1,8 @@
 // Where along a line a surface that moves can be.
 #pragma once
 
+#include <span>
+
 #include "backlight/surface/matter_motion.h"
 #include "backlight/surface/surface_set.h"
 #include "convex.h"
@@ -22,6 +24,9 @@ BoundingSphere seen_from(const MatterMotion& motion, const Vec3& place, double t
 /// A sphere that holds all places at which light of a flash can meet the motion's ball; about nothing if it
 /// meets it later.
 BoundingSphere lit_from(const MatterMotion& motion, const LightFlash& flash);
+/// The same of several, PassingSheet::most at most, each with its flash.
+void lit_from(std::span<const MatterMotion* const> motions, std::span<const LightFlash> flashes,
+              std::span<BoundingSphere> spheres);
 
 /// What light that arrives at an event meets of the motion's ball: while it does, no farther than `radius`
 /// from centre + velocity (t - time). The radius is infinite where that is not known.

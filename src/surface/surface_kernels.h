@@ -4,6 +4,7 @@
 #include "local_lines.h"
 #include "mesh_points.h"
 #include "mesh_walk.h"
+#include "passing_lanes.h"
 #include "polynomial_lanes.h"
 #include "torus_lanes.h"
 #include "walk.h"
@@ -19,6 +20,7 @@ struct SurfaceKernels {
   decltype(&Walk<1>::nearest) nearest;
   decltype(&Walk<1>::blocked) blocked;
   decltype(&Walk<1>::points) points;
+  void (*find_passings)(PassingSheet&);
 };
 
 template <class V>
@@ -31,7 +33,8 @@ SurfaceKernels surface_kernels_of() {
           .polynomials = polynomial_kernels_of<V>,
           .nearest = W::nearest,
           .blocked = W::blocked,
-          .points = W::points};
+          .points = W::points,
+          .find_passings = find_passings<V>};
 }
 
 SurfaceKernels baseline_surface_kernels();

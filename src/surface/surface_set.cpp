@@ -1,6 +1,7 @@
 #include "backlight/surface/surface_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -9,6 +10,7 @@
 #include "hierarchy.h"
 #include "local_line.h"
 #include "moving_ball.h"
+#include "passing_lanes.h"
 #include "presence.h"
 #include "shape_table.h"
 #include "surface_point.h"
@@ -307,6 +309,38 @@ BoundingSphere SurfaceSet::lit_from(const LightFlash& flash) const {
                }));
   }
   return all;
+}
+
+void SurfaceSet::lit_from(std::span<const SurfaceSet* const> sets, std::span<const LightFlash> flashes,
+                          std::span<BoundingSphere> spheres) {
+  constexpr std::size_t most = PassingSheet::most;
+  std::array<std::size_t, most> whose;
+  std::array<const MatterMotion*, most> motions;
+  std::array<LightFlash, most> local;
+  std::array<BoundingSphere, most> met;
+  std::size_t count = 0;
+  const auto find = [&] {
+    backlight::lit_from({motions.data(), count}, {local.data(), count}, {met.data(), count});
+    for (std::size_t k = 0; k < count; ++k) {
+      const PlacedSurface& surface = sets[whose[k]]->at(0);
+      spheres[whose[k]] =
+          met_sphere(surface, Vec3{0.0}, [&](const MatterMotion&, const Vec3&) { return met[k]; });
+    }
+    count = 0;
+  };
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const MatterMotion* motion = sets[i]->size() == 1 ? sets[i]->shape(0).motion.get() : nullptr;
+    if (motion == nullptr || !motion->ball()) {
+      spheres[i] = sets[i]->lit_from(flashes[i]);
+      continue;
+    }
+    whose[count] = i;
+    motions[count] = motion;
+    local[count] = flashes[i];
+    local[count].place -= sets[i]->at(0).position();
+    if (++count == most) find();
+  }
+  find();
 }
 
 BoundingSphere SurfaceSet::bounds() const {

@@ -65,7 +65,7 @@ class BallSearch {
         clock_(clock),
         radius_(ball.radius),
         square_radius_(ball.radius * ball.radius),
-        slowest_(V(1.0) - magnitude(clock.rate) * V(ball.path->speed)),
+        by_slowest_(V(1.0) / (V(1.0) - magnitude(clock.rate) * V(ball.path->speed))),
         surely_(V(1.0 - 1e-12) / (V(1.0) + magnitude(clock.rate) * V(ball.path->speed))),
         bend_(clock.rate * clock.rate * V(ball.path->acceleration)),
         change_of_bend_(magnitude(clock.rate) * clock.rate * clock.rate * V(ball.path->jerk)),
@@ -120,10 +120,10 @@ class BallSearch {
     return (V(3.0) * speed * bend_ + (distance_ + speed * h) * change_of_bend_) * V(1.0 + 1e-12);
   }
 
-  /// How far from s w·d, which grows by no less than slowest_, and now at `pace`, which itself now grows by
-  /// `turn`, may get by `way` at most.
+  /// How far from s w·d, which grows at no less than 1/by_slowest_, and now at `pace`, which itself now grows
+  /// by `turn`, may get by `way` at most.
   [[nodiscard]] BACKLIGHT_LANES V reach(V way, V pace, V turn) const {
-    const V left = larger(way, V(0.0)), by_slowest = left / slowest_;
+    const V left = larger(way, V(0.0)), by_slowest = left * by_slowest_;
     // A little farther than it would be, without the jerk; if with the most of it that is far enough, too.
     const V more = V(1.25) * left, square = pace * pace + V(2.0) * turn * more;
     const V guess = V(2.0) * more / (pace + sqrt(larger(square, V(0.0))));
@@ -138,7 +138,7 @@ class BallSearch {
     Mask arrived = ~(magnitude(ahead) > V(0.25) * radius_);
     if (is_last) arrived = seeking_;
     arrived = arrived & seeking_;
-    const V farthest = s_ - ahead / slowest_;
+    const V farthest = s_ - ahead * by_slowest_;
     const Mask beyond = ahead > V(0.0);
     high_ = select(beyond, s_, smaller(high_, farthest));
     low_ = select(beyond, larger(low_, farthest), s_);
@@ -230,7 +230,7 @@ class BallSearch {
   const V3 point_, direction_;
   const LaneClock<V> clock_;
   const V radius_, square_radius_;
-  const V slowest_;                ///< w·d grows by no less
+  const V by_slowest_;             ///< s for each length that w·d grows by, at most
   const V surely_;                 ///< s for each length that lies between line and ball, at least
   const V bend_, change_of_bend_;  ///< no less than |n|, |n'|
   const V size_;

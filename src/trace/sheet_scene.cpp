@@ -1,6 +1,7 @@
 #include "sheet_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -198,27 +199,45 @@ void SheetScene::put(const Scene& scene, std::size_t light, const Entry& entry, 
       opaque > 0.0 && !entry.extended && !motion.is_robust() ? opaque * (1.0 - 1e-11) - room : 0.0;
 }
 
-bool SheetScene::put_traveller(const Scene& scene, std::size_t light, int index, double time,
-                               double half_time, LampTable& table, int row) const {
+LightFlash SheetScene::flash_of(const Scene& scene, std::size_t light, const Entry& its,
+                                const Bundle& bundle) const {
   const Light& lamp = scene.lights[light];
-  const Entry& its = entry(index);
   const FrameView& view = hub_->frames[static_cast<std::size_t>(its.frame)];
   const auto& motion = hub_->lights[light].to_frame[static_cast<std::size_t>(its.frame)];
   const Vec3 way = lamp.position - hub_->frames[static_cast<std::size_t>(lamp.frame)].camera_event.x;
-  const Displacement<Rest> ahead = motion(Displacement<Source>{time, way});
+  const Displacement<Rest> ahead = motion(Displacement<Source>{bundle.time, way});
   const double spread = motion.gamma() + glm::length(motion.celerity());
-  const double size = glm::length(view.camera_event.x) + spread * (std::abs(time) + glm::length(way));
+  const double size = glm::length(view.camera_event.x) + spread * (std::abs(bundle.time) + glm::length(way));
   const double aside = scene.camera.stereo ? scene.camera.stereo->separation : 0.0;
   LightFlash flash;
   flash.place = view.camera_event.x + ahead.x;
   flash.time = view.camera_event.t + ahead.t;
-  flash.apart = spread * half_time + 1e-13 * (size + std::abs(view.camera_event.t));
+  flash.apart = spread * bundle.half_time + 1e-13 * (size + std::abs(view.camera_event.t));
   flash.until = view.camera_event.t + view.from_camera.gamma() * aside + flash.apart;
-  const BoundingSphere sphere = surfaces(its).lit_from(flash);
-  if (sphere.radius < 0.0) return false;
-  put(scene, light, its, sphere, table, row);
-  table.who[static_cast<std::size_t>(row)] = static_cast<double>(index);
-  return true;
+  return flash;
+}
+
+void SheetScene::add_travellers(const Scene& scene, std::size_t light, std::span<const int> indices,
+                                const Bundle& bundle, LampTable& table) const {
+  constexpr std::size_t most = 64;
+  std::array<const SurfaceSet*, most> sets;
+  std::array<LightFlash, most> flashes;
+  std::array<BoundingSphere, most> spheres;
+  while (!indices.empty()) {
+    const std::span<const int> some = indices.first(std::min(most, indices.size()));
+    indices = indices.subspan(some.size());
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      sets[i] = &surfaces(entry(some[i]));
+      flashes[i] = flash_of(scene, light, entry(some[i]), bundle);
+    }
+    SurfaceSet::lit_from({sets.data(), some.size()}, {flashes.data(), some.size()},
+                         {spheres.data(), some.size()});
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      if (spheres[i].radius < 0.0) continue;
+      put(scene, light, entry(some[i]), spheres[i], table, table.count);
+      table.who[table.count++] = static_cast<double>(some[i]);
+    }
+  }
 }
 
 }  // namespace backlight

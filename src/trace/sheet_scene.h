@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "backlight/trace/tracer.h"
@@ -97,10 +98,10 @@ class SheetScene {
   }
   [[nodiscard]] const EyeView& eye(int eye) const { return eyes_[eye > 0 ? 1 : 0]; }
   [[nodiscard]] const LampView& lamp(std::size_t light) const { return lamps_[light]; }
-  /// How light that leaves a lamp between these times, from the camera event's, meets a traveller's entry: in
-  /// a sphere, with which row `j` of the table is filled. False: not before it is seen by the camera.
-  bool put_traveller(const Scene& scene, std::size_t light, int entry, double time, double half_time,
-                     LampTable& table, int j) const;
+  /// Adds to the table how light of a lamp that makes up the bundle meets these entries of travellers: in a
+  /// sphere each, but for those that it does not meet before they are seen by the camera.
+  void add_travellers(const Scene& scene, std::size_t light, std::span<const int> entries,
+                      const Bundle& bundle, LampTable& table) const;
   /// Whether all lights of points of this frame can be done in lanes.
   [[nodiscard]] bool lit_in_lanes(int frame, const Effects& effects) const {
     // Of a lamp on a path, γ is another one for each point: only this effect asks for it.
@@ -112,6 +113,8 @@ class SheetScene {
   void list_entries(const Scene& scene, From from);
   [[nodiscard]] EyeView view_of(const Scene& scene, int eye) const;
   [[nodiscard]] LampView view_of(const Scene& scene, std::size_t light) const;
+  [[nodiscard]] LightFlash flash_of(const Scene& scene, std::size_t light, const Entry& entry,
+                                    const Bundle& bundle) const;
   void put(const Scene& scene, std::size_t light, const Entry& entry, const BoundingSphere& sphere,
            LampTable& table, int j) const;
 

@@ -46,6 +46,7 @@ struct SheetScratch {
   std::vector<LampStore> packet_lamps;  ///< what may shade any of a packet of shadow rays, and of its parts
   LampStore chunk_lamps;                ///< what may shade any of the points of a sheet...
   LampStore near_lamps;                 ///< ...and a few of them
+  std::vector<int> travellers;          ///< entries to be narrowed
   // Hits sorted by the group of what was hit (Numbered):
   struct Group {
     std::size_t key;
@@ -124,7 +125,6 @@ class SheetShader {
   void list_for_tile(std::size_t light, LampTable& list) const;
   [[nodiscard]] bool narrows(std::size_t light) const;
   void narrow_travellers(std::size_t light, const Bundle& bundle, LampTable& list) const;
-  bool put_traveller(std::size_t light, int entry, const Bundle& bundle, LampTable& list, int row) const;
   [[nodiscard]] bool in_packets(std::size_t light) const;
   void shadow(std::size_t light);
   void shadow_by_packets(std::size_t light);

@@ -69,30 +69,21 @@ void SheetShader::list_for_tile(std::size_t light, LampTable& list) const {
   sheets_.kernels().overlapping_lamps(view.bounded.table(), bundle, list);
   if (!narrows(light)) return;
   narrow_travellers(light, bundle, list);
-  for (const int entry : view.travellers) {
-    if (put_traveller(light, entry, bundle, list, list.count)) ++list.count;
-  }
+  sheets_.add_travellers(tracer_.scene(), light, view.travellers, bundle, list);
 }
 
 // Where the light of a bundle meets the listed occluders that go along paths: spheres smaller than all of
 // their ways.
 void SheetShader::narrow_travellers(std::size_t light, const Bundle& bundle, LampTable& list) const {
   int kept = 0;
+  work_.travellers.clear();
   for (int i = 0; i < list.count; ++i) {
     const int entry = static_cast<int>(list.who[i]);
     const bool narrower = sheets_.entry(entry).travels && bundle.half_time < list.radius[i];
-    if (!narrower) {
-      list.copy(i, kept++);
-    } else if (put_traveller(light, entry, bundle, list, kept)) {
-      ++kept;
-    }
+    narrower ? work_.travellers.push_back(entry) : list.copy(i, kept++);
   }
   list.count = kept;
-}
-
-bool SheetShader::put_traveller(std::size_t light, int entry, const Bundle& bundle, LampTable& list,
-                                int row) const {
-  return sheets_.put_traveller(tracer_.scene(), light, entry, bundle.time, bundle.half_time, list, row);
+  sheets_.add_travellers(tracer_.scene(), light, work_.travellers, bundle, list);
 }
 
 bool SheetShader::in_packets(std::size_t light) const {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "backlight/base/vector.h"
@@ -170,6 +171,9 @@ class SurfaceSet {
   [[nodiscard]] BoundingSphere seen_from(const Vec3& place, double time) const;
   /// Of all places at which light of the flash can meet the set.
   [[nodiscard]] BoundingSphere lit_from(const LightFlash& flash) const;
+  /// The same of several sets, each with its flash.
+  static void lit_from(std::span<const SurfaceSet* const> sets, std::span<const LightFlash> flashes,
+                       std::span<BoundingSphere> spheres);
   /// Whether these two say more than bounds(): anything in it goes along a path.
   [[nodiscard]] bool any_travels() const;
   /// Of those surfaces that have bounds.

@@ -130,6 +130,39 @@ TEST_P(LightOnPaths, OfAFlashThatIsSeenBeforeMeetNothing) {
   EXPECT_LT(set.lit_from({{30.0, 0.0, 0.0}, 0.0, 0.0, 1.0}).radius, 0.0);
 }
 
+// Paths of different numbers of waves side by side, some without, and what stands still.
+TEST(LightOnManyPaths, MeetsTheSpheresOfEach) {
+  std::vector<SurfaceSet> sets;
+  sets.push_back(travelling({"cos(0.8*t)", "0", "sin(0.8*t)"}, 0.8));
+  sets.push_back(travelling({"0.5*cos(t) + 0.1*t", "0.3*sin(t)", "0.4 - 0.2*sin(2*t)"}, 0.95));
+  sets.push_back(travelling({"sqrt(1 + t^2)*0.9", "0.2", "0.1*atan(t)"}, 0.99));
+  sets.push_back(travelling({"0.9*t", "1", "0.1*t"}, 0.91));
+  sets.push_back(
+      travelling({"0.1*(cos(t) + cos(2*t) + cos(3*t))", "0.1*(sin(4*t) + sin(0.5*t))", "0"}, 0.99));
+  sets.emplace_back();
+  sets.back().add(sphere(0.3), Placement(Vec3{1.0, 2.0, 3.0}, Vec3{0.0}, Vec3{1.0}));
+  sets.back().build();
+  std::mt19937_64 engine(7);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
+  };
+  std::vector<const SurfaceSet*> asked;
+  std::vector<LightFlash> flashes;
+  for (int i = 0; i < 500; ++i) {
+    asked.push_back(&sets[engine() % sets.size()]);
+    const Vec3 place{between(-4.0, 4.0), between(-4.0, 4.0), between(-4.0, 4.0)};
+    const double time = between(-20.0, 20.0);
+    flashes.push_back({place, time, between(0.0, 0.5), time + between(0.0, 12.0)});
+  }
+  std::vector<BoundingSphere> spheres(asked.size());
+  SurfaceSet::lit_from(asked, flashes, spheres);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const BoundingSphere alone = asked[i]->lit_from(flashes[i]);
+    EXPECT_EQ(spheres[i].radius, alone.radius) << i;
+    EXPECT_EQ(spheres[i].centre, alone.centre) << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Paths, LightOnPaths,
     testing::Values(Travel{"circle", {"cos(0.8*t)", "0", "sin(0.8*t)"}, 0.8},
