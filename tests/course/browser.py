@@ -95,6 +95,19 @@ class Browser:
         self.ask("Input.dispatchKeyEvent", type="keyDown", key=key, code=key, windowsVirtualKeyCode=code, **more)
         self.ask("Input.dispatchKeyEvent", type="keyUp", key=key, code=key, windowsVirtualKeyCode=code)
 
+    def click(self, element, across=0.5):
+        """Clicks an element, which is an expression of JavaScript, at a part of its width, after opening what it is folded in."""
+        x, y, width, height = self.value(f"""(() => {{
+          const element = {element};
+          for (let fold = element.closest("details"); fold; fold = fold.parentElement.closest("details"))
+            fold.open = fold.open || element.tagName !== "SUMMARY" || element.parentElement !== fold;
+          element.scrollIntoView({{ block: "center", behavior: "instant" }});
+          const box = element.getClientRects()[0];
+          return [box.x, box.y, box.width, box.height];
+        }})()""")
+        for what in ("mouseMoved", "mousePressed", "mouseReleased"):
+            self.ask("Input.dispatchMouseEvent", type=what, x=x + across * width, y=y + height / 2, button="left", clickCount=1)
+
     def screen(self, width, height, scale=1, mobile=False):
         self.ask("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=mobile)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of scripts/course.sh, in a real headless Chromium: moved by its keys, on a screen, a phone and paper.
+"""The page of scripts/course.sh, in a real headless Chromium: moved by its keys and by a mouse, on a screen, a phone and paper.
 
     page_test.py PROGRAM FOLDER [--page PAGE.html]
 
@@ -112,6 +112,29 @@ class Page(unittest.TestCase):
         self.browser.press(" ", 32, " ")
         self.assertEqual(self.browser.value(visible), [1, 1])
         self.browser.screenshot(folder / "marks.png")
+
+    def test_all_can_be_clicked(self):
+        for name in self.names:
+            figure = f"document.querySelector('[data-slider=\"{name}\"]')"
+            values = SLIDERS[name]["values"]
+            for across, value in ((0.999, values[-1]), (0.001, values[0])):
+                self.browser.click(f"{figure}.querySelector('[type=\"range\"]')", across)
+                self.assertEqual(float(self.state(name)["output"].split()[0]), value)
+            views = SLIDERS[name]["view"]
+            for i in reversed(range(len(views) if len(views) > 1 else 0)):
+                self.browser.click(f"{figure}.querySelectorAll('[type=\"radio\"]')[{i}]")
+                self.assertIn(views[i]["name"], self.state(name)["alt"])
+            self.browser.click(f"{figure}.querySelector('[type=\"checkbox\"]')")
+            self.assertTrue(self.browser.value(f"[...{figure}.querySelectorAll('.mark')].every(m => m.getClientRects().length === 1)"), name)
+        links = self.browser.value("[...document.querySelectorAll('a')].map(a => a.getAttribute('href'))")
+        for i, link in enumerate(links):
+            self.browser.click(f"document.querySelectorAll('a')[{i}]", 0.1)
+            self.assertEqual(self.browser.value("location.hash"), link)
+        for i in range(self.browser.value("document.querySelectorAll('summary').length")):
+            fold = f"document.querySelectorAll('summary')[{i}]"
+            before = self.browser.value(f"{fold}.parentElement.open")
+            self.browser.click(fold, 0.1)
+            self.assertNotEqual(self.browser.value(f"{fold}.parentElement.open"), before)
 
     def test_readings_are_those_of_the_lessons(self):
         def reading(name, row, column):

@@ -94,6 +94,21 @@ bash -n "$share/bash-completion/completions/backlight"
 [[ -s $share/zsh/vendor-completions/_backlight && -s $share/backlight/backlight.schema.json ]] || fail "completion or schema is missing"
 [[ $(as_user backlight --version) == "Backlight $(dpkg-deb -f "$package" Version | sed 's/-1$//')" ]] || fail "another version"
 
+# ---- the course, where the package has it: moved and clicked in a browser (with the packages of scripts/install.sh test), and its lessons' commands as they stand
+if [[ -e $share/doc/backlight/html/course.html ]]; then
+  python3 "$top/tests/course/page_test.py" "$files$prefix/bin/backlight" "$work/page" --page "$share/doc/backlight/html/course.html"
+fi
+cat >"$home/lessons.sh" <<'LESSONS'
+cd "$1" && mkdir -p lessons && cd lessons && ln -s "$2/share/backlight/scenes" . && ran=0
+for lesson in "$2"/share/doc/backlight/html/course/[0-9][0-9]-*.html; do
+  commands=$(python3 -c 'import html, re, sys; print("\n".join(html.unescape(re.sub("<[^>]*>", "", b)) for b in re.findall(r"<pre[^>]*>(.*?)</pre>", open(sys.argv[1]).read(), re.S) if "backlight " in b))' "$lesson")
+  printf '%s\n' "$commands" | sh -eu >told.txt 2>&1 || { cat told.txt; echo "the commands of $lesson failed" >&2; exit 1; }
+  ran=$((ran + 1))
+done
+[ "$ran" -eq 10 ] && echo "$ran lessons"
+LESSONS
+as_user sh "$inside/lessons.sh" "$inside" "$prefix"
+
 # ---- every scene, as an ordinary user, small
 cat >"$home/scenes.sh" <<'SCENES'
 cd "$1" && made=0
