@@ -114,6 +114,8 @@ class Page(unittest.TestCase):
         self.browser.screenshot(folder / "marks.png")
 
     def test_all_can_be_clicked(self):
+        # What a link leads to is there at once, not scrolled to while the next thing is clicked.
+        self.browser.ask("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
         for name in self.names:
             figure = f"document.querySelector('[data-slider=\"{name}\"]')"
             values = SLIDERS[name]["values"]
