@@ -64,6 +64,7 @@ if [[ -n $root ]]; then
   mapfile -t depends < <(dpkg-deb -f "$package" Depends | tr ',' '\n' | sed 's/ *(.*//; s/^ *//')
   in_root apt-get install -q -y --no-install-recommends "${depends[@]}" python3-numpy python3-openimageio ffmpeg >/dev/null
   in_root sh -c 'id tester >/dev/null 2>&1 || useradd -m -d /srv/tester tester'
+  in_root dpkg --purge backlight >/dev/null 2>&1 || true  # of a run before that failed
   contents >"$work/before"
   cp "$package" "$root/srv/backlight.deb"
   in_root apt-get install -q -y /srv/backlight.deb >/dev/null
