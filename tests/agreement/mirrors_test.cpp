@@ -149,9 +149,9 @@ TEST(Mirrors, ShowInSheetsWhatTheLawShows) {
 
 TEST(Mirrors, AndStarsInThemAreTheLawInSheets) {
   std::string text = scene("", "beta = [0.2, 0.1, 0.4]", more_to_see);
-  text.replace(text.find("[72, 48]"), 8, "[48, 32]");
+  text.replace(text.find("[72, 48]"), 8, "[36, 24]");
   const std::size_t sky = text.find("[background]") + 13;
-  expect_the_law(text.substr(0, sky) + "stars = { count = 1000 }\n" + text.substr(sky), 300U);
+  expect_the_law(text.substr(0, sky) + "stars = { count = 300 }\n" + text.substr(sky), 300U);
 }
 
 TEST(Mirrors, AreTheSameBitsForAnyThreadsAndCrop) {
