@@ -135,7 +135,7 @@ class Reader {
     word.remove_prefix(static_cast<std::size_t>(read.ptr - word.data()));
     const std::int64_t at = value > 0 ? value - 1 : value + static_cast<std::int64_t>(count);
     if (value == 0) fail("a face names " + std::string(what) + " 0; they are counted from 1");
-    if (at < 0 || at > 0x7ffffffe) fail_of_index(value, count, what);
+    if (at < 0 || at > 0x7ffffffe) fail_of_index(std::to_string(value), count, what);
     return static_cast<std::int32_t>(at);
   }
 
@@ -187,7 +187,7 @@ class Reader {
     };
     const auto check = [](std::int32_t index, std::size_t count, const char* what) {
       if (index >= 0 && static_cast<std::size_t>(index) >= count)
-        fail_of_index(std::int64_t{index} + 1, count, what);
+        fail_of_index(std::to_string(std::int64_t{index} + 1), count, what);
     };
     std::vector<std::uint32_t> polygon;
     const Named* next = named_.data();

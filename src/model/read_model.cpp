@@ -45,24 +45,16 @@ void Read::finish() {
   if (!has_normals || normals.size() < places.size()) normals.clear();
 }
 
-namespace {
-
-[[noreturn]] void fail_of_named(const std::string& index, std::size_t count, const char* what) {
+void fail_of_index(const std::string& index, std::size_t count, const char* what) {
   throw std::runtime_error("a face names " + std::string(what) + " " + index + ", and there are " +
                            std::to_string(count));
-}
-
-}  // namespace
-
-void fail_of_index(std::int64_t index, std::size_t count, const char* what) {
-  fail_of_named(std::to_string(index), count, what);
 }
 
 std::uint32_t index_below(std::size_t count, double number, const char* what) {
   if (!(number >= 0.0 && number < static_cast<double>(count)) || number != std::floor(number)) {
     std::ostringstream text;
     text << std::setprecision(17) << number;
-    fail_of_named(text.str(), count, what);
+    fail_of_index(text.str(), count, what);
   }
   return static_cast<std::uint32_t>(number);
 }

@@ -55,7 +55,7 @@ Read read_gltf(const std::string& path, bool normals);
 
 /// Fails where a face names a corner that is not there; `what`: "the vertex" or the like, counted from 0 or
 /// from 1.
-[[noreturn]] void fail_of_index(std::int64_t index, std::size_t count, const char* what);
+[[noreturn]] void fail_of_index(const std::string& index, std::size_t count, const char* what);
 
 /// A number of a file as an index below `count`; throws the same where it is none: negative, too large, not
 /// whole, not a number.

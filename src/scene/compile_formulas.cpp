@@ -152,13 +152,11 @@ std::shared_ptr<const MatterMotion> given_motion(Compilation& c, const TableView
 }
 
 void warn_of_still_matter(const TableView& table, std::string_view key) {
-  const ImageValues& values = table.values();
-  values.diagnostics.warning(
-      values.description.span(table.place(key)),
-      "the surface depends on t, and its colours are those of matter at rest, through which it "
-      "passes like a wave",
-      "matter_velocity = [vx, vy, vz] says how the matter moves; position, rotate and scale "
-      "that depend on t move a body");
+  table.warning(key,
+                "the surface depends on t, and its colours are those of matter at rest, through which it "
+                "passes like a wave",
+                "matter_velocity = [vx, vy, vz] says how the matter moves; position, rotate and scale "
+                "that depend on t move a body");
 }
 
 std::optional<Shape> finished(Compilation& c, const TableView& table, std::string_view key,

@@ -88,8 +88,7 @@ void compile_light(Compilation& c, const Node& node) {
   } else if (type == "ambient") {
     light.kind = LightKind::ambient;
     if (table.has("position")) {
-      c.values.diagnostics.warning(c.values.description.span(table.place("position")),
-                                   "an ambient light comes from everywhere: its 'position' changes nothing");
+      table.warning("position", "an ambient light comes from everywhere: its 'position' changes nothing");
     }
     read_strength(table, "radiance", light);
   } else {

@@ -15,8 +15,7 @@ void warn_of_left_out(const TableView& table, const LoadedModel& model) {
       model.mesh->dropped() == 1 ? " triangle without an area" : " triangles without an area");
   add(model.left_out, model.left_out == 1 ? " point or line" : " points and lines");
   if (what.empty()) return;
-  table.values().diagnostics.warning(table.values().description.span(table.place("file")),
-                                     "of the mesh, " + what + " are left out: they cannot be seen");
+  table.warning("file", "of the mesh, " + what + " are left out: they cannot be seen");
 }
 
 }  // namespace
@@ -46,10 +45,9 @@ void require_closed(const TableView& table, std::string_view key, const Mesh& me
 
 void warn_without_texture_coordinates(const TableView& table, const Mesh& mesh) {
   if (!mesh.data().texture.empty()) return;
-  table.values().diagnostics.warning(
-      table.values().description.span(table.place("file")),
-      "the mesh has no texture coordinates: all of it shows one place of its texture or checker",
-      "lay it out (UV) in the program that it comes from, or give it a color");
+  table.warning("file",
+                "the mesh has no texture coordinates: all of it shows one place of its texture or checker",
+                "lay it out (UV) in the program that it comes from, or give it a color");
 }
 
 bool has_materials_of_file(const TableView& table) {

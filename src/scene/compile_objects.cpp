@@ -293,9 +293,7 @@ class ObjectCompiler {
     const std::string message = std::to_string(lattice.copies()) + " copies take " + memory_words(needed) +
                                 " of memory, and " + memory_words(left->bytes) + " are " + left->where;
     if (!c_.request.outline) keys.error("repeat", message);
-    if (c_.request.outline)
-      c_.values.diagnostics.warning(c_.values.description.span(keys.place("repeat")), message,
-                                    "to render it here is an error");
+    if (c_.request.outline) keys.warning("repeat", message, "to render it here is an error");
     return c_.request.outline;
   }
 

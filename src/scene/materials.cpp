@@ -38,11 +38,10 @@ bool are_nanometres(const TableView& table, std::string_view key, const Spectrum
   }
   if (key != "lines" && (greatest < shortest_visible || least > longest_visible)) {
     const double kept = greatest < shortest_visible ? points.values.back() : points.values.front();
-    table.values().diagnostics.warning(
-        table.values().description.span(table.place(key)),
-        "none of its wavelengths, " + reach + " nm, is visible: at rest it is " + number_text(kept) +
-            " throughout",
-        "visible light is from 360 to 830 nm; multiply metres by 1e9, micrometres by 1000");
+    table.warning(key,
+                  "none of its wavelengths, " + reach + " nm, is visible: at rest it is " +
+                      number_text(kept) + " throughout",
+                  "visible light is from 360 to 830 nm; multiply metres by 1e9, micrometres by 1000");
   }
   return true;
 }

@@ -12,8 +12,7 @@ void warn_without_any(const TableView& object, const LoadedModel& model) {
            its->color == usual.color && its->emission == usual.emission;
   };
   if (!std::ranges::all_of(model.materials, says_nothing)) return;
-  object.values().diagnostics.warning(object.values().description.span(object.place("material")),
-                                      "the mesh's file tells of no material: all of it is grey (0.8)");
+  object.warning("material", "the mesh's file tells of no material: all of it is grey (0.8)");
 }
 
 }  // namespace

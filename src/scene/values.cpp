@@ -258,4 +258,8 @@ void TableView::error(std::string_view name, std::string message, std::string hi
   values_->error(place(name), std::move(message), std::move(hint));
 }
 
+void TableView::warning(std::string_view name, std::string message, std::string hint) const {
+  values_->diagnostics.warning(values_->description.span(place(name)), std::move(message), std::move(hint));
+}
+
 }  // namespace backlight

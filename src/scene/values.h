@@ -96,6 +96,7 @@ class TableView {
   [[nodiscard]] std::string_view one_of(const std::vector<std::string_view>& keys) const;
 
   void error(std::string_view key, std::string message, std::string hint = {}) const;
+  void warning(std::string_view key, std::string message, std::string hint = {}) const;
   [[nodiscard]] ImageValues& values() const { return *values_; }
 
  private:
