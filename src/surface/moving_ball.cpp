@@ -245,20 +245,32 @@ BoundingSphere seen_from(const MatterMotion& motion, const Vec3& place, double t
   return sphere_of(passing_seen_from(motion, place, time), place, time);
 }
 
-BoundingSphere lit_from(const MatterMotion& motion, const LightFlash& flash) {
-  const Passing passing = passing_lit_from(motion, flash);
+BoundingSphere sphere_of(const Passing& passing, const LightFlash& flash) {
   if (passing.half_time < 0.0) return {};
   return sphere_of(passing, flash.place, flash.time);
 }
 
-void lit_from(std::span<const MatterMotion* const> motions, std::span<const LightFlash> flashes,
-              std::span<BoundingSphere> spheres) {
+BoundingSphere lit_from(const MatterMotion& motion, const LightFlash& flash) {
+  return sphere_of(passing_lit_from(motion, flash), flash);
+}
+
+PassingBall ball_of(const Passing& passing, const Vec3& about) {
+  PassingBall ball{.time = passing.time, .radius = passing.radius};
+  for (int k = 0; k < 3; ++k) {
+    ball.centre[k] = about[k] + passing.centre[k];
+    ball.velocity[k] = passing.velocity[k];
+  }
+  return ball;
+}
+
+void passings_lit_from(std::span<const MatterMotion* const> motions, std::span<const LightFlash> flashes,
+                       std::span<Passing> passings) {
   PassingSheet sheet;
-  std::array<std::size_t, PassingSheet::most> row{};
+  std::array<std::size_t, PassingSheet::most> row;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const LanePath* path = motions[i]->path();
     if (path == nullptr || path->count > LanePaths<Lanes<1>>::most_turns) {
-      spheres[i] = lit_from(*motions[i], flashes[i]);
+      passings[i] = passing_lit_from(*motions[i], flashes[i]);
       continue;
     }
     const int at = sheet.count++;
@@ -272,14 +284,15 @@ void lit_from(std::span<const MatterMotion* const> motions, std::span<const Ligh
   surface_kernels().find_passings(sheet);
   for (int at = 0; at < sheet.count; ++at) {
     const std::size_t i = row[static_cast<std::size_t>(at)];
-    const LightFlash& flash = flashes[i];
-    Passing passing{.time = sheet.time[at], .half_time = sheet.half_time[at], .radius = sheet.reach[at]};
+    Passing& passing = passings[i];
+    passing = {.time = sheet.time[at], .half_time = sheet.half_time[at], .radius = sheet.reach[at]};
     for (int k = 0; k < 3; ++k) {
       passing.centre[k] = sheet.centre[k][at];
       passing.velocity[k] = sheet.velocity[k][at];
     }
-    const bool known = is_known(*motions[i]->ball(), passing, flash.until);
-    spheres[i] = known ? sphere_of(passing, flash.place, flash.time) : lit_from(*motions[i], flash);
+    if (!is_known(*motions[i]->ball(), passing, flashes[i].until)) {
+      passing = passing_lit_from(*motions[i], flashes[i]);
+    }
   }
 }
 

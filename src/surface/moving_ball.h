@@ -4,6 +4,7 @@
 #include <span>
 
 #include "backlight/surface/matter_motion.h"
+#include "backlight/surface/ray_sheet.h"
 #include "backlight/surface/surface_set.h"
 #include "convex.h"
 #include "local_line.h"
@@ -24,9 +25,6 @@ BoundingSphere seen_from(const MatterMotion& motion, const Vec3& place, double t
 /// A sphere that holds all places at which light of a flash can meet the motion's ball; about nothing if it
 /// meets it later.
 BoundingSphere lit_from(const MatterMotion& motion, const LightFlash& flash);
-/// The same of several, PassingSheet::most at most, each with its flash.
-void lit_from(std::span<const MatterMotion* const> motions, std::span<const LightFlash> flashes,
-              std::span<BoundingSphere> spheres);
 
 /// What light that arrives at an event meets of the motion's ball: while it does, no farther than `radius`
 /// from centre + velocity (t - time). The radius is infinite where that is not known.
@@ -40,5 +38,12 @@ struct Passing {
 Passing passing_seen_from(const MatterMotion& motion, const Vec3& place, double time);
 /// The same of light that leaves at a flash.
 Passing passing_lit_from(const MatterMotion& motion, const LightFlash& flash);
+/// The same of several, PassingSheet::most at most, each with its flash.
+void passings_lit_from(std::span<const MatterMotion* const> motions, std::span<const LightFlash> flashes,
+                       std::span<Passing> passings);
+/// What such light meets, in a sphere; about nothing if it does so too late.
+BoundingSphere sphere_of(const Passing& passing, const LightFlash& flash);
+/// Of a motion about a place.
+PassingBall ball_of(const Passing& passing, const Vec3& about);
 
 }  // namespace backlight

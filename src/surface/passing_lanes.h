@@ -2,6 +2,7 @@
 // and (29).
 #pragma once
 
+#include "backlight/surface/surface_set.h"
 #include "lane_path.h"
 
 namespace backlight {
@@ -79,7 +80,7 @@ BACKLIGHT_LANES LanePassing<V> passing_of(const Path& path, V radius, const Even
 
 /// Balls on paths, and light that leaves at an event, by row; and what it meets.
 struct PassingSheet {
-  static constexpr int most = 16;
+  static constexpr int most = static_cast<int>(SurfaceSet::most_lit);
   int count = 0;
   const LanePath* path[most];  ///< no more turns than LanePaths holds
   double radius[most];

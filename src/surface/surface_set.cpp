@@ -282,6 +282,12 @@ bool travels(const PlacedSurface& surface) {
                                           [](const Solid::Leaf& leaf) { return travels(leaf.surface); });
 }
 
+/// Whether this is all: one surface within a ball on a path.
+bool is_one_ball(const std::vector<PlacedSurface>& surfaces) {
+  const MatterMotion* motion = surfaces.size() == 1 ? surfaces[0].shape.motion.get() : nullptr;
+  return motion != nullptr && motion->ball();
+}
+
 }  // namespace
 
 bool SurfaceSet::any_travels() const {
@@ -311,36 +317,38 @@ BoundingSphere SurfaceSet::lit_from(const LightFlash& flash) const {
   return all;
 }
 
+PassingBall SurfaceSet::passing_seen_from(const Vec3& place, double time) const {
+  if (!is_one_ball(surfaces_)) return {};
+  const Vec3 about = at(0).position();
+  return ball_of(backlight::passing_seen_from(*shape(0).motion, place - about, time), about);
+}
+
 void SurfaceSet::lit_from(std::span<const SurfaceSet* const> sets, std::span<const LightFlash> flashes,
-                          std::span<BoundingSphere> spheres) {
-  constexpr std::size_t most = PassingSheet::most;
-  std::array<std::size_t, most> whose;
-  std::array<const MatterMotion*, most> motions;
-  std::array<LightFlash, most> local;
-  std::array<BoundingSphere, most> met;
+                          std::span<BoundingSphere> spheres, std::span<PassingBall> balls) {
+  std::array<std::size_t, most_lit> whose;
+  std::array<const MatterMotion*, most_lit> motions;
+  std::array<LightFlash, most_lit> local;
+  std::array<Passing, most_lit> passings;
   std::size_t count = 0;
-  const auto find = [&] {
-    backlight::lit_from({motions.data(), count}, {local.data(), count}, {met.data(), count});
-    for (std::size_t k = 0; k < count; ++k) {
-      const PlacedSurface& surface = sets[whose[k]]->at(0);
-      spheres[whose[k]] =
-          met_sphere(surface, Vec3{0.0}, [&](const MatterMotion&, const Vec3&) { return met[k]; });
-    }
-    count = 0;
-  };
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    const MatterMotion* motion = sets[i]->size() == 1 ? sets[i]->shape(0).motion.get() : nullptr;
-    if (motion == nullptr || !motion->ball()) {
+    if (!is_one_ball(sets[i]->surfaces_)) {
       spheres[i] = sets[i]->lit_from(flashes[i]);
+      balls[i] = {};
       continue;
     }
     whose[count] = i;
-    motions[count] = motion;
+    motions[count] = sets[i]->shape(0).motion.get();
     local[count] = flashes[i];
-    local[count].place -= sets[i]->at(0).position();
-    if (++count == most) find();
+    local[count++].place -= sets[i]->at(0).position();
   }
-  find();
+  passings_lit_from({motions.data(), count}, {local.data(), count}, {passings.data(), count});
+  for (std::size_t k = 0; k < count; ++k) {
+    const PlacedSurface& surface = sets[whose[k]]->at(0);
+    balls[whose[k]] = ball_of(passings[k], surface.position());
+    spheres[whose[k]] = met_sphere(surface, Vec3{0.0}, [&](const MatterMotion&, const Vec3&) {
+      return sphere_of(passings[k], local[k]);
+    });
+  }
 }
 
 BoundingSphere SurfaceSet::bounds() const {

@@ -129,20 +129,15 @@ LightFlash flash_of(const RaySheet& sheet, std::uint64_t rays, double lambda) {
   return flash;
 }
 
-PassingBall passing(const void* set, int index, std::uint64_t rays, const RaySheet& sheet, double lambda) {
+PassingBall find_passing(const void* set, int index, std::uint64_t rays, const RaySheet& sheet,
+                         double lambda) {
   const PlacedSurface& surface = static_cast<const PlacedSurface*>(set)[index];
-  const Vec3 at = surface.position();
   LightFlash flash = flash_of(sheet, rays, lambda);
-  flash.place -= at;
+  flash.place -= surface.position();
   const MatterMotion& motion = *surface.shape.motion;
-  const Passing ball =
-      lambda == 0.0 ? passing_seen_from(motion, flash.place, flash.time) : passing_lit_from(motion, flash);
-  PassingBall result{{}, {}, ball.time, ball.radius};
-  for (int k = 0; k < 3; ++k) {
-    result.centre[k] = at[k] + ball.centre[k];
-    result.velocity[k] = ball.velocity[k];
-  }
-  return result;
+  return ball_of(
+      lambda == 0.0 ? passing_seen_from(motion, flash.place, flash.time) : passing_lit_from(motion, flash),
+      surface.position());
 }
 
 void put(const SurfacePoint& point, int ray, SheetPoints& out) {
@@ -186,7 +181,7 @@ bool has_point_of_lanes(const Shape& shape, bool textured) {
 
 }  // namespace
 
-WalkSurfaces SurfaceSet::walk_surfaces(Among among, double first_number) const {
+WalkSurfaces SurfaceSet::walk_surfaces(Among among, double first_number, const PassingBall& passing) const {
   const std::size_t skipped = among == Among::bounded ? unbounded_ : 0;
   return {.nodes = nodes_.empty() ? nullptr : nodes_.data(),
           .surfaces = surfaces_.data(),
@@ -197,18 +192,21 @@ WalkSurfaces SurfaceSet::walk_surfaces(Among among, double first_number) const {
           .set = surfaces_.data(),
           .nearest_of = nearest_of,
           .blocked_by = blocked_by,
-          .passing = passing};
+          .known_passing = passing,
+          .passing = find_passing};
 }
 
-void SurfaceSet::nearest(const RaySheet& sheet, std::uint64_t rays, double first_number,
-                         SheetHits& hits) const {
-  surface_kernels(sheet.instructions).nearest(walk_surfaces(Among::all, first_number), sheet, rays, hits);
+void SurfaceSet::nearest(const RaySheet& sheet, std::uint64_t rays, double first_number, SheetHits& hits,
+                         const PassingBall& passing) const {
+  surface_kernels(sheet.instructions)
+      .nearest(walk_surfaces(Among::all, first_number, passing), sheet, rays, hits);
 }
 
 std::uint64_t SurfaceSet::blocked(const RaySheet& sheet, std::uint64_t rays, double lambda_max,
-                                  double first_number, const double (*own)[sheet_size]) const {
+                                  double first_number, const double (*own)[sheet_size],
+                                  const PassingBall& passing) const {
   return surface_kernels(sheet.instructions)
-      .blocked(walk_surfaces(Among::all, first_number), sheet, rays,
+      .blocked(walk_surfaces(Among::all, first_number, passing), sheet, rays,
                {lambda_max, own == nullptr ? nullptr : *own});
 }
 

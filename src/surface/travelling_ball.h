@@ -29,14 +29,6 @@ BACKLIGHT_LANES TravellingBall ball_of(const LaneSurface& surface) {
   return {surface.values[0], surface.values[1], surface.path};
 }
 
-/// A ball that goes straight on, which holds another one while light meets it that arrives at an event.
-struct PassingBall {
-  double centre[3];  ///< at `time`
-  double velocity[3];
-  double time;
-  double radius;
-};
-
 /// Which rays may meet it; those that are not light are not asked. `start` and `rate`: of the time along
 /// them.
 template <class V>

@@ -30,6 +30,7 @@ struct WalkSurfaces {
                      SheetHits&);
   std::uint64_t (*blocked_by)(const void* set, int surface, std::uint64_t rays, const RaySheet&,
                               double lambda_max);
+  PassingBall known_passing;  ///< of a travelling ball, if it is known before
   /// What the rays whose bits are set can meet of a travelling ball, if they are light: to where they are at
   /// λ = 0, which is one event, or from where they are at another λ.
   PassingBall (*passing)(const void* set, int surface, std::uint64_t rays, const RaySheet&, double lambda);
@@ -226,7 +227,9 @@ class Walk : TreeWalk<N> {
   /// Of the rays those that pass near a travelling ball, where that is clear at once.
   static std::uint64_t near_traveller(const WalkSurfaces& s, int index, const RaySheet& rays,
                                       std::uint64_t active, double lambda) {
-    const PassingBall ball = s.passing(s.set, index, active, rays, lambda);
+    const bool is_known = s.known_passing.radius < infinity;
+    if (!is_known && rays.padded <= 8) return active;
+    const PassingBall ball = is_known ? s.known_passing : s.passing(s.set, index, active, rays, lambda);
     std::uint64_t met = 0;
     for (int i = 0; i < rays.padded; i += N) {
       const unsigned open = lanes_of(active, i);
@@ -241,7 +244,7 @@ class Walk : TreeWalk<N> {
   static bool nearest_at_rest(const WalkSurfaces& s, int index, const RaySheet& rays, std::uint64_t asked,
                               SheetHits& hits) {
     const LaneSurface& surface = s.surfaces[index].lanes;
-    const bool narrows = surface.kind == ShapeKind::travelling_ball && rays.one_origin && rays.padded > 8;
+    const bool narrows = surface.kind == ShapeKind::travelling_ball && rays.one_origin;
     const std::uint64_t active = narrows ? near_traveller(s, index, rays, asked, 0.0) : asked;
     if (active == 0) return false;
     const double who = s.first_who + index;
@@ -329,7 +332,7 @@ class Walk : TreeWalk<N> {
                                        std::uint64_t asked, const ShadowQuestion& question) {
     const LaneSurface& surface = s.surfaces[index].lanes;
     const double end = question.lambda_max;
-    const bool narrows = surface.kind == ShapeKind::travelling_ball && rays.padded > 8 && end < infinity;
+    const bool narrows = surface.kind == ShapeKind::travelling_ball && end < infinity;
     const std::uint64_t active = narrows ? near_traveller(s, index, rays, asked, end) : asked;
     if (active == 0) return 0;
     const double who = s.first_who + index;

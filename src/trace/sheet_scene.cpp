@@ -103,6 +103,13 @@ EyeView SheetScene::view_of(const Scene& scene, int eye) const {
     frame.time = event.t;
     result.frames.push_back(frame);
   }
+  for (const Entry& entry : entries_) {
+    const LaneFrame& frame = result.frames[static_cast<std::size_t>(entry.frame)];
+    result.passings.push_back(entry.travels
+                                  ? surfaces(entry).passing_seen_from(
+                                        {frame.origin[0], frame.origin[1], frame.origin[2]}, frame.time)
+                                  : PassingBall{});
+  }
   for (int delayed = 0; delayed < 2; ++delayed) {
     ConeStore& store = result.cones[static_cast<std::size_t>(delayed)];
     store.resize(entries_.size());
@@ -218,11 +225,13 @@ LightFlash SheetScene::flash_of(const Scene& scene, std::size_t light, const Ent
 }
 
 void SheetScene::add_travellers(const Scene& scene, std::size_t light, std::span<const int> indices,
-                                const Bundle& bundle, LampTable& table) const {
-  constexpr std::size_t most = 64;
+                                const Bundle& bundle, LampTable& table,
+                                std::span<PassingBall> passings) const {
+  constexpr std::size_t most = SurfaceSet::most_lit;
   std::array<const SurfaceSet*, most> sets;
   std::array<LightFlash, most> flashes;
   std::array<BoundingSphere, most> spheres;
+  std::array<PassingBall, most> balls;
   while (!indices.empty()) {
     const std::span<const int> some = indices.first(std::min(most, indices.size()));
     indices = indices.subspan(some.size());
@@ -231,9 +240,10 @@ void SheetScene::add_travellers(const Scene& scene, std::size_t light, std::span
       flashes[i] = flash_of(scene, light, entry(some[i]), bundle);
     }
     SurfaceSet::lit_from({sets.data(), some.size()}, {flashes.data(), some.size()},
-                         {spheres.data(), some.size()});
+                         {spheres.data(), some.size()}, {balls.data(), some.size()});
     for (std::size_t i = 0; i < some.size(); ++i) {
       if (spheres[i].radius < 0.0) continue;
+      passings[static_cast<std::size_t>(some[i])] = balls[i];
       put(scene, light, entry(some[i]), spheres[i], table, table.count);
       table.who[table.count++] = static_cast<double>(some[i]);
     }

@@ -56,8 +56,9 @@ struct Numbered {
 
 /// The view of one eye.
 struct EyeView {
-  std::vector<LaneFrame> frames;   ///< by frame index
-  std::array<ConeStore, 2> cones;  ///< of entries; [1]: with light delay
+  std::vector<LaneFrame> frames;      ///< by frame index
+  std::array<ConeStore, 2> cones;     ///< of entries; [1]: with light delay
+  std::vector<PassingBall> passings;  ///< by entry: what light that arrives meets of it
 };
 
 /// One light and its occluders.
@@ -99,9 +100,10 @@ class SheetScene {
   [[nodiscard]] const EyeView& eye(int eye) const { return eyes_[eye > 0 ? 1 : 0]; }
   [[nodiscard]] const LampView& lamp(std::size_t light) const { return lamps_[light]; }
   /// Adds to the table how light of a lamp that makes up the bundle meets these entries of travellers: in a
-  /// sphere each, but for those that it does not meet before they are seen by the camera.
+  /// sphere each, but for those that it does not meet before they are seen by the camera. `passings`, by
+  /// entry: what it meets of each.
   void add_travellers(const Scene& scene, std::size_t light, std::span<const int> entries,
-                      const Bundle& bundle, LampTable& table) const;
+                      const Bundle& bundle, LampTable& table, std::span<PassingBall> passings) const;
   /// Whether all lights of points of this frame can be done in lanes.
   [[nodiscard]] bool lit_in_lanes(int frame, const Effects& effects) const {
     // Of a lamp on a path, γ is another one for each point: only this effect asks for it.

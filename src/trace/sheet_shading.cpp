@@ -67,6 +67,7 @@ SheetScratch::SheetScratch(const SheetScene& scene, std::size_t lights, Instruct
   for (LampStore& lamps : packet_lamps) lamps.resize(scene.entries().size());
   chunk_lamps.resize(scene.entries().size());
   near_lamps.resize(scene.entries().size());
+  passings.resize(scene.entries().size());
 }
 
 // Without light delay there are none to the camera; but from a mirror on there is light.

@@ -47,6 +47,7 @@ struct SheetScratch {
   LampStore chunk_lamps;                ///< what may shade any of the points of a sheet...
   LampStore near_lamps;                 ///< ...and a few of them
   std::vector<int> travellers;          ///< entries to be narrowed
+  std::vector<PassingBall> passings;    ///< by entry: what the light of a sheet meets of those
   // Hits sorted by the group of what was hit (Numbered):
   struct Group {
     std::size_t key;
@@ -129,7 +130,7 @@ class SheetShader {
   void shadow(std::size_t light);
   void shadow_by_packets(std::size_t light);
   void sift(std::size_t light, const LampTable& near, double time, int first, int last);
-  void try_entry(std::size_t light, int index, std::uint64_t candidates);
+  void try_entry(std::size_t light, int index, std::uint64_t candidates, const PassingBall& passing = {});
   void try_extended(std::size_t light, int frame, std::uint64_t candidates);
   [[nodiscard]] bool is_alone(int entry) const;
   void shadow_of_distant(std::size_t light);

@@ -57,7 +57,8 @@ class SheetSearch {
     if (entry.extended) {
       ask_extended(sheet, entry, inside);
     } else {
-      scene_.surfaces(entry).nearest(work_.rays, inside, entry.first_number, sheet.hits);
+      scene_.surfaces(entry).nearest(work_.rays, inside, entry.first_number, sheet.hits,
+                                     scene_.eye(eye_).passings[static_cast<std::size_t>(index)]);
     }
   }
 

@@ -69,7 +69,7 @@ void SheetShader::list_for_tile(std::size_t light, LampTable& list) const {
   sheets_.kernels().overlapping_lamps(view.bounded.table(), bundle, list);
   if (!narrows(light)) return;
   narrow_travellers(light, bundle, list);
-  sheets_.add_travellers(tracer_.scene(), light, view.travellers, bundle, list);
+  sheets_.add_travellers(tracer_.scene(), light, view.travellers, bundle, list, work_.passings);
 }
 
 // Where the light of a bundle meets the listed occluders that go along paths: spheres smaller than all of
@@ -81,9 +81,10 @@ void SheetShader::narrow_travellers(std::size_t light, const Bundle& bundle, Lam
     const int entry = static_cast<int>(list.who[i]);
     const bool narrower = sheets_.entry(entry).travels && bundle.half_time < list.radius[i];
     narrower ? work_.travellers.push_back(entry) : list.copy(i, kept++);
+    work_.passings[static_cast<std::size_t>(entry)] = {};
   }
   list.count = kept;
-  sheets_.add_travellers(tracer_.scene(), light, work_.travellers, bundle, list);
+  sheets_.add_travellers(tracer_.scene(), light, work_.travellers, bundle, list, work_.passings);
 }
 
 bool SheetShader::in_packets(std::size_t light) const {
@@ -126,7 +127,8 @@ bool SheetShader::is_alone(int entry) const {
 }
 
 // By the frame's own search, of those of the candidates (one bit for each point) that are still lit.
-void SheetShader::try_entry(std::size_t light, int index, std::uint64_t candidates) {
+void SheetShader::try_entry(std::size_t light, int index, std::uint64_t candidates,
+                            const PassingBall& passing) {
   const Entry& entry = sheets_.entry(index);
   PointSheet& p = work_.points;
   const auto at = static_cast<std::size_t>(entry.frame);
@@ -145,7 +147,7 @@ void SheetShader::try_entry(std::size_t light, int index, std::uint64_t candidat
     rays = &work_.rays;
   }
   if (open == 0) return;
-  std::uint64_t dark = sheets_.surfaces(entry).blocked(*rays, open, end, entry.first_number, &p.own);
+  std::uint64_t dark = sheets_.surfaces(entry).blocked(*rays, open, end, entry.first_number, &p.own, passing);
   for (; dark != 0; dark &= dark - 1) p.lit[__builtin_ctzll(dark)] = 0.0;
 }
 
@@ -230,7 +232,9 @@ void SheetShader::sift(std::size_t light, const LampTable& near, double time, in
     const std::uint64_t unclear =
         own ? sheets_.kernels().turned(work_.points)
             : sheets_.kernels().sift(near, i, time, first, last, work_.points.light_rays());
-    if (unclear != 0) try_entry(light, entry, unclear);
+    if (unclear == 0) continue;
+    const auto at = static_cast<std::size_t>(entry);
+    try_entry(light, entry, unclear, narrows(light) ? work_.passings[at] : PassingBall{});
   }
 }
 

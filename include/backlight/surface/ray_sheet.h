@@ -25,6 +25,15 @@ struct RaySheet {
   alignas(64) double time_rate[sheet_size];
 };
 
+/// A ball that goes straight on, which holds another one on a path while light meets it that arrives at or
+/// leaves an event, or others next to it. To begin with, it is not known.
+struct PassingBall {
+  double centre[3]{};  ///< at `time`
+  double velocity[3]{};
+  double time = 0.0;
+  double radius = std::numeric_limits<double>::infinity();
+};
+
 /// Where rays meet something first; to begin with, nowhere.
 struct SheetHits {
   alignas(64) double lambda[sheet_size];  ///< infinite, or as far as is looked

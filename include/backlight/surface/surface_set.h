@@ -151,14 +151,16 @@ class SurfaceSet {
   // Many rays at once, each with the same answer as by itself: those whose bits are set in `rays`.
 
   /// Updates the hits where a surface is met at a smaller λ > 0, or at the same and its number is smaller:
-  /// surface i has number first_number + i.
-  void nearest(const RaySheet& sheet, std::uint64_t rays, double first_number, SheetHits& hits) const;
+  /// surface i has number first_number + i. `passing`: what light of these rays meets of the one surface
+  /// that there is, where that is known.
+  void nearest(const RaySheet& sheet, std::uint64_t rays, double first_number, SheetHits& hits,
+               const PassingBall& passing = {}) const;
 
   /// Which of the rays are blocked at a λ in (0, lambda_max). `own` by ray: the number of a surface that is
   /// known not to be in the way; numbers as above.
   [[nodiscard]] std::uint64_t blocked(const RaySheet& sheet, std::uint64_t rays, double lambda_max,
-                                      double first_number = 0.0,
-                                      const double (*own)[sheet_size] = nullptr) const;
+                                      double first_number = 0.0, const double (*own)[sheet_size] = nullptr,
+                                      const PassingBall& passing = {}) const;
 
   /// The points of the hits of rays `first` to `last`, all on one surface. u and v are not set if they are
   /// not wanted.
@@ -171,16 +173,20 @@ class SurfaceSet {
   [[nodiscard]] BoundingSphere seen_from(const Vec3& place, double time) const;
   /// Of all places at which light of the flash can meet the set.
   [[nodiscard]] BoundingSphere lit_from(const LightFlash& flash) const;
-  /// The same of several sets, each with its flash.
+  /// Of several sets, each with its flash, and what its light meets of a set that is one surface on a path.
+  static constexpr std::size_t most_lit = 64;
   static void lit_from(std::span<const SurfaceSet* const> sets, std::span<const LightFlash> flashes,
-                       std::span<BoundingSphere> spheres);
+                       std::span<BoundingSphere> spheres, std::span<PassingBall> balls);
+  /// What light that arrives at this event meets of a set that is one surface on a path.
+  [[nodiscard]] PassingBall passing_seen_from(const Vec3& place, double time) const;
   /// Whether these two say more than bounds(): anything in it goes along a path.
   [[nodiscard]] bool any_travels() const;
   /// Of those surfaces that have bounds.
   [[nodiscard]] const BoundingSphere& bounds_of_bounded() const { return bounds_of_bounded_; }
 
  private:
-  [[nodiscard]] WalkSurfaces walk_surfaces(Among among, double first_number) const;
+  [[nodiscard]] WalkSurfaces walk_surfaces(Among among, double first_number,
+                                           const PassingBall& passing = {}) const;
   [[nodiscard]] const PlacedSurface& at(int surface) const;
   [[nodiscard]] BoundingSphere around(const std::vector<AxisBox>& boxes,
                                       const std::vector<int>& bounded) const;

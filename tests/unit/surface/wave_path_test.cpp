@@ -85,6 +85,20 @@ struct Travel {
   double speed;
 };
 
+PassingBall passing_lit_from(const SurfaceSet& set, const LightFlash& flash) {
+  const SurfaceSet* sets[] = {&set};
+  BoundingSphere sphere;
+  PassingBall ball;
+  SurfaceSet::lit_from(sets, {&flash, 1}, {&sphere, 1}, {&ball, 1});
+  return ball;
+}
+
+Vec3 centre_at(const PassingBall& ball, double time) {
+  Vec3 centre{0.0};
+  for (int k = 0; k < 3; ++k) centre[k] = ball.centre[k] + (time - ball.time) * ball.velocity[k];
+  return centre;
+}
+
 class LightOnPaths : public testing::TestWithParam<Travel> {};
 
 // Every place of the ball that light of an event passes is in the sphere.
@@ -104,6 +118,8 @@ TEST_P(LightOnPaths, StaysInTheSpheres) {
     const double apart = event % 2 == 0 ? 0.0 : between(0.0, 0.5);
     const BoundingSphere lit = set.lit_from({place, time, apart});
     const BoundingSphere seen = set.seen_from(place, time);
+    const PassingBall lit_ball = passing_lit_from(set, {place, time, apart});
+    const PassingBall seen_ball = set.passing_seen_from(place, time);
     for (int i = 0; i < 4000; ++i) {
       const double ago = between(0.0, 40.0);
       const bool forwards = i % 2 == 0;
@@ -119,6 +135,8 @@ TEST_P(LightOnPaths, StaysInTheSpheres) {
       const Vec3 there = centre - std::clamp(length - ago, -radius, radius) * way;
       const BoundingSphere& sphere = forwards ? lit : seen;
       EXPECT_LE(glm::length(there - sphere.centre), sphere.radius) << at - time;
+      const PassingBall& ball = forwards ? lit_ball : seen_ball;
+      EXPECT_LE(glm::length(there - centre_at(ball, at)), ball.radius * (1.0 + 1e-12)) << at - time;
     }
     EXPECT_LE(seen.radius, 2.5 * radius / (1.0 - travel.speed));
   }
@@ -148,14 +166,15 @@ TEST(LightOnManyPaths, MeetsTheSpheresOfEach) {
   };
   std::vector<const SurfaceSet*> asked;
   std::vector<LightFlash> flashes;
-  for (int i = 0; i < 500; ++i) {
+  for (std::size_t i = 0; i < SurfaceSet::most_lit; ++i) {
     asked.push_back(&sets[engine() % sets.size()]);
     const Vec3 place{between(-4.0, 4.0), between(-4.0, 4.0), between(-4.0, 4.0)};
     const double time = between(-20.0, 20.0);
     flashes.push_back({place, time, between(0.0, 0.5), time + between(0.0, 12.0)});
   }
   std::vector<BoundingSphere> spheres(asked.size());
-  SurfaceSet::lit_from(asked, flashes, spheres);
+  std::vector<PassingBall> balls(asked.size());
+  SurfaceSet::lit_from(asked, flashes, spheres, balls);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const BoundingSphere alone = asked[i]->lit_from(flashes[i]);
     EXPECT_EQ(spheres[i].radius, alone.radius) << i;
