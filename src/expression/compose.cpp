@@ -50,7 +50,11 @@ Composer::Node Composer::insert(const Expression& expression, std::span<const No
 }
 
 Expression Composer::expression(Node root, std::string text) const {
-  return Expression::from_tape(std::move(text), graph_->tape(root), variables_);
+  return Expression::from_tape(std::move(text), graph_->tape({&root, 1}), variables_);
+}
+
+Tape Composer::tape(std::span<const Node> roots) const {
+  return graph_->tape(roots);
 }
 
 }  // namespace backlight

@@ -60,7 +60,7 @@ std::variant<Expression, ExpressionError> Expression::parse(std::string_view tex
   try {
     const Graph::Node root = Parser(text, variables, graph).parse();
     return Expression(std::make_shared<const Compiled>(
-        Compiled{std::string(text), graph.tape(root), variables.names().size()}));
+        Compiled{std::string(text), graph.tape({&root, 1}), variables.names().size()}));
   } catch (ExpressionError& error) {
     return std::move(error);
   }
@@ -101,7 +101,8 @@ Expression Expression::bind(std::size_t first, std::span<const double> values) c
     }
   }
   const std::size_t left = std::min(first, compiled_->variables);
-  return Expression(std::make_shared<const Compiled>(Compiled{compiled_->text, graph.tape(node[0]), left}));
+  return Expression(
+      std::make_shared<const Compiled>(Compiled{compiled_->text, graph.tape({node.data(), 1}), left}));
 }
 
 bool Expression::uses(std::size_t variable) const {

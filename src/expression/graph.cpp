@@ -1,5 +1,6 @@
 #include "graph.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -59,11 +60,12 @@ Graph::Node Graph::power(Node a, Node b) {
   return exponent < 0.0 ? apply(Operation::divide, constant(1.0), result) : result;
 }
 
-std::vector<Graph::Node> Graph::last_uses(Node root) const {
-  // Walking down from the root, a node is seen before its operands: the first mention is the last use.
+std::vector<Graph::Node> Graph::last_uses(std::span<const Node> roots) const {
+  // Walking down from the roots, a node is seen before its operands: the first mention is the last use.
+  const auto end = static_cast<Node>(entries_.size());
   std::vector<Node> last_use(entries_.size(), unused);
-  last_use[root] = root;
-  for (Node node = root + 1; node-- > 0;) {
+  for (const Node root : roots) last_use[root] = end;
+  for (Node node = end; node-- > 0;) {
     if (last_use[node] == unused) continue;
     const Entry& entry = entries_[node];
     const int count = operands(node);
@@ -73,12 +75,13 @@ std::vector<Graph::Node> Graph::last_uses(Node root) const {
   return last_use;
 }
 
-Tape Graph::tape(Node root) const {
-  const std::vector<Node> last_use = last_uses(root);
+Tape Graph::tape(std::span<const Node> roots) const {
+  const std::vector<Node> last_use = last_uses(roots);
   std::vector<std::uint32_t> place(entries_.size());  // the register that holds a node
   std::vector<std::uint32_t> free;
-  Tape tape;  // its register 0 is kept for the result
-  for (Node node = 0; node <= root; ++node) {
+  Tape tape;  // its first registers are kept for the results
+  tape.registers = roots.size();
+  for (Node node = 0; node < entries_.size(); ++node) {
     if (last_use[node] == unused) continue;
     const Entry& entry = entries_[node];
     Instruction step{entry.operation, 0, entry.a, entry.b};
@@ -92,14 +95,22 @@ Tape Graph::tape(Node root) const {
       step.a = static_cast<std::uint32_t>(tape.constants.size());
       tape.constants.push_back(value(node));
     }
-    if (node != root && free.empty()) {
+    if (const auto root = std::ranges::find(roots, node); root != roots.end()) {
+      step.out = static_cast<std::uint32_t>(root - roots.begin());
+    } else if (free.empty()) {
       step.out = static_cast<std::uint32_t>(tape.registers++);
-    } else if (node != root) {
+    } else {
       step.out = free.back();
       free.pop_back();
     }
     place[node] = step.out;
     tape.instructions.push_back(step);
+  }
+  for (std::uint32_t i = 1; i < roots.size(); ++i) {
+    const auto same = static_cast<std::uint32_t>(std::ranges::find(roots, roots[i]) - roots.begin());
+    if (same == i) continue;
+    tape.instructions.push_back({Operation::negate, i, same, same});  // twice: a copy
+    tape.instructions.push_back({Operation::negate, i, i, i});
   }
   return tape;
 }

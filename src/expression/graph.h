@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "backlight/expression/tape.h"
@@ -26,8 +27,8 @@ class Graph {
   /// |n| ulp of the exact value), which is defined for every a; any other exponent is libm's pow.
   Node power(Node a, Node b);
 
-  /// The instructions for what `root` needs, with registers used again as soon as they are free.
-  [[nodiscard]] Tape tape(Node root) const;
+  /// The instructions for what the roots need, with registers used again as soon as they are free.
+  [[nodiscard]] Tape tape(std::span<const Node> roots) const;
 
  private:
   struct Entry {
@@ -41,8 +42,9 @@ class Graph {
   [[nodiscard]] bool is_constant(Node node) const { return entries_[node].operation == Operation::constant; }
   [[nodiscard]] double value(Node node) const { return constants_[entries_[node].a]; }
   [[nodiscard]] int operands(Node node) const;
-  /// For each node the youngest node that reads it, or the largest index when `root` does not need it.
-  [[nodiscard]] std::vector<Node> last_uses(Node root) const;
+  /// For each node the youngest node that reads it, or the largest index when no root needs it; for a root
+  /// one that is younger than all.
+  [[nodiscard]] std::vector<Node> last_uses(std::span<const Node> roots) const;
 
   std::vector<Entry> entries_;
   std::vector<double> constants_;

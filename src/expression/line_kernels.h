@@ -246,8 +246,9 @@ void run_zeros(const LineWork& work) {
 template <int width>
 LineKernels line_kernels() {
   using V = Lanes<width>;
-  return {LineKernel<LaneBounds<V>, V, true>::run, LineKernel<LaneBounds<V>, V, false>::run,
-          LineKernel<LaneNumber<V>, V, true>::run, run_zeros<V>, PolynomialKernel<V>::run};
+  return {LineKernel<LaneBounds<V>, V, true>::run,  LineKernel<LaneBounds<V>, V, false>::run,
+          LineKernel<LaneNumber<V>, V, true>::run,  run_zeros<V>,
+          LineKernel<LaneAffine<V>, V, false>::run, PolynomialKernel<V>::run};
 }
 
 }  // namespace backlight

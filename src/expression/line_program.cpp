@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "backlight/base/instruction_sets.h"
@@ -41,7 +42,7 @@ void fill_up(LineBatch& lines, std::size_t count) {
   }
 }
 
-enum class Question { piece, point, zeros };
+enum class Question { piece, point, zeros, forms };
 
 /// Runs the kernels of one question on the first `count` lines, a multiple of the padding.
 class Run {
@@ -74,6 +75,7 @@ class Run {
  private:
   [[nodiscard]] auto kernel_of(Question question) const -> void (*)(const LineWork&) {
     if (question == Question::zeros) return kernels_.zeros;
+    if (question == Question::forms) return kernels_.forms;
     return question == Question::piece ? kernels_.pieces : kernels_.points;
   }
 
@@ -147,6 +149,14 @@ void take(const Run& run, LineBatch& lines, std::size_t count, std::size_t wante
       lines.slope_upper()[i] = run.result(3, count)[i];
     }
   }
+}
+
+/// Result r of some lines, into those from `first` on.
+void take_form(const Run& run, std::size_t stride, std::size_t r, const LineForms& form, std::size_t first,
+               std::size_t count) {
+  std::copy_n(run.result(3 * r, stride), count, form.centre + first);
+  std::copy_n(run.result(3 * r + 1, stride), count, form.slope + first);
+  std::copy_n(run.result(3 * r + 2, stride), count, form.error + first);
 }
 
 void copy_question(LineBatch& from, std::size_t i, LineBatch& to, std::size_t k) {
@@ -293,13 +303,43 @@ void LineProgram::enclose_points(LineBatch& lines, std::size_t count, std::vecto
 }
 
 void LineProgram::numbers(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const {
+  const LineNumbers only{lines.value(), lines.slope()};
+  all_numbers(lines, count, workspace, {&only, 1});
+}
+
+void LineProgram::all_numbers(LineBatch& lines, std::size_t count, std::vector<double>& workspace,
+                              std::span<const LineNumbers> results) const {
   if (count == 0) return;
   fill_up(lines, count);
   Run run(*this, lines, workspace);
   run.numbers(padded(count));
+  for (std::size_t r = 0; r < results.size(); ++r) {
+    std::copy_n(run.result(2 * r, padded(count)), count, results[r].value);
+    std::copy_n(run.result(2 * r + 1, padded(count)), count, results[r].slope);
+  }
+}
+
+void LineProgram::forms(LineBatch& lines, std::size_t count, std::vector<double>& workspace,
+                        std::span<const LineForms> results) const {
+  if (count == 0) return;
+  fill_up(lines, count);
+  if (Run run(*this, lines, workspace); run.bounds(Question::forms, padded(count))) {
+    for (std::size_t r = 0; r < results.size(); ++r) take_form(run, padded(count), r, results[r], 0, count);
+    return;
+  }
+  // What is found of a line never depends on the others.
+  LineBatch one(LineBatch::padding);
   for (std::size_t i = 0; i < count; ++i) {
-    lines.value()[i] = run.result(0, padded(count))[i];
-    lines.slope()[i] = run.result(1, padded(count))[i];
+    copy_question(lines, i, one, 0);
+    fill_up(one, 1);
+    Run run(*this, one, workspace);
+    const bool good = run.bounds(Question::forms, LineBatch::padding);
+    for (std::size_t r = 0; r < results.size(); ++r) {
+      take_form(run, LineBatch::padding, r, results[r], i, 1);
+      if (good) continue;
+      results[r].centre[i] = results[r].slope[i] = 0.0;
+      results[r].error[i] = std::numeric_limits<double>::infinity();
+    }
   }
 }
 

@@ -32,6 +32,7 @@ struct LineKernels {
   void (*points)(const LineWork&);
   void (*numbers)(const LineWork&);
   void (*zeros)(const LineWork&);
+  void (*forms)(const LineWork&);
   void (*polynomials)(const LineWork&, LinePolynomials&);
 };
 

@@ -80,10 +80,8 @@ MatterMotion::Ball ball_of(const MatterMotion::Body& body, const SpeedProof& pro
   return ball;
 }
 
-using Reach = std::array<Interval, 3>;
-
 /// A box about a hull.
-Reach box_of(const std::vector<HullBall>& hull) {
+std::array<Interval, 3> box_of(const std::vector<HullBall>& hull) {
   Vec3 low{std::numeric_limits<double>::infinity()};
   Vec3 high = -low;
   for (const HullBall& ball : hull) {
@@ -249,6 +247,8 @@ class MotionCompiler {
     proved_anywhere_ = proved_anywhere_ && std::isinf(proof->begins);
     MatterMotion::Body body = body_of(levels);
     if (shape.motion && shape.motion->flow() != nullptr) body.flow = *shape.motion->flow();
+    const std::array<Interval, 3> box = box_of(hull);
+    body.box = moving_box(levels, box, whole_);
     const Interval times = times_of(*proof);
     const double radius = one.bounds(0).radius * stretch_of(levels, times.lower, times.upper);
     MatterMotion::Ball ball = ball_of(body, *proof, radius * (1.0 + 1e-12), c_.scene.c);
@@ -260,8 +260,6 @@ class MotionCompiler {
                              std::make_shared<const MatterMotion>(body, shape, ball, clock_of(c_)));
     }
     Vec3 low{0.0}, high{0.0};
-    bool rests = std::isinf(ball.begins);
-    const Reach box = box_of(hull);
     for (std::size_t i = 0; i < 3; ++i) {
       const int k = static_cast<int>(i);
       const Interval path = over_times(ball.path[i], times.lower, times.upper).value;
@@ -269,7 +267,6 @@ class MotionCompiler {
       const Interval places = enclose(body.place[i].tape(), std::array{box[0], box[1], box[2], times});
       low[k] = std::max(path.lower - ball.radius, places.lower - 1e-12 * ball.radius);
       high[k] = std::min(path.upper + ball.radius, places.upper + 1e-12 * ball.radius);
-      rests = rests && ball.path[i].constant();
     }
     // Errors of its points are told by the size of its bounds, which those of a thing that leaves are not.
     constexpr double many_radii = 1e6;
@@ -281,6 +278,8 @@ class MotionCompiler {
     ImplicitOptions options;
     options.seconds_per_length = 1.0 / c_.scene.c;
     options.unresolved = unresolved_of(shape);
+    const auto centre = WavePath::of(ball.path, 1.0);
+    const bool rests = bounded && std::isinf(ball.begins) && centre && centre->is_still();
     options.motion = std::make_shared<const MatterMotion>(
         body, shape, rests ? std::nullopt : std::optional(ball), clock_of(c_));
     options.finder = RootFinder::affine;
@@ -308,6 +307,7 @@ class MotionCompiler {
   SpeedProver prover_;
   Vec3 offset_{0.0};
   bool proved_anywhere_ = true;
+  std::shared_ptr<const LineProgram> whole_;  ///< the coordinates that move with the whole
 };
 
 std::array<Expression, 3> formulas_of(const TableView& table, std::string_view key, const Vec3& now) {

@@ -10,6 +10,7 @@
 #include "backlight/surface/placement.h"
 #include "backlight/surface/wave_path.h"
 #include "own_time.h"
+#include "turning.h"
 
 namespace backlight {
 namespace {
@@ -177,6 +178,31 @@ MatterMotion::Body body_within(const std::vector<MotionLevel>& levels,
   body.steady = keeps_speeds(levels);
   body.period = period_of_rates(body.place, ImplicitFormula::t);
   return body;
+}
+
+BodyBox moving_box(const std::vector<MotionLevel>& levels, const std::array<Interval, 3>& sides,
+                   std::shared_ptr<const LineProgram>& of_whole) {
+  auto end = levels.end();
+  while (!std::prev(end)->moves()) --end;
+  const std::vector<MotionLevel> moving(levels.begin(), end);
+  const Placement inner = *placement_at_rest({end, levels.end()});
+  BodyBox box{moving.size() == 1 ? of_whole : nullptr, {}, {}, {}};
+  if (!box.common) {
+    Composer composer(ImplicitFormula::variables);
+    const MotionCoordinates within = into_all(composer, moving, variables_of(composer));
+    box.common = std::make_shared<const LineProgram>(composer.tape(std::span(within).first(3)));
+    if (moving.size() == 1) of_whole = box.common;
+  }
+  Vec3 middle{0.0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int axis = static_cast<int>(k);
+    middle[axis] = 0.5 * sides[k].lower + 0.5 * sides[k].upper;
+    box.half[k] = 0.5 * sides[k].upper - 0.5 * sides[k].lower;
+    for (int i = 0; i < 3; ++i) box.axis[k][i] = inner.local_from_rest()[i][axis];
+  }
+  const Vec3 centre = inner.position() + inner.rest_from_local() * middle;
+  for (int k = 0; k < 3; ++k) box.centre[k] = centre[k];
+  return box;
 }
 
 Expression moved_formula(const Expression& f, const std::vector<MotionLevel>& levels) {

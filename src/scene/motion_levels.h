@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -56,6 +57,11 @@ MatterMotion::Body body_of(const std::vector<MotionLevel>& levels);
 /// The same in the coordinates that the levels `within` make of the outermost ones, which never move.
 MatterMotion::Body body_within(const std::vector<MotionLevel>& levels,
                                const std::vector<MotionLevel>& within);
+
+/// A box of the innermost coordinates, told in those of the last level that moves. `of_whole`: the
+/// coordinates within the first level, kept for others that move with it alone.
+BodyBox moving_box(const std::vector<MotionLevel>& levels, const std::array<Interval, 3>& sides,
+                   std::shared_ptr<const LineProgram>& of_whole);
 
 /// The formula f of the innermost coordinates as one of the outermost.
 Expression moved_formula(const Expression& f, const std::vector<MotionLevel>& levels);

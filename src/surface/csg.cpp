@@ -60,7 +60,7 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
 
 Crossing crossing_of_walk(const PlacedSurface& leaf, const LocalLine& line, const Crossing& near) {
   SolidWalk walk;
-  methods(leaf.shape).begin_walk(leaf.shape, line, -infinite, walk);
+  methods(leaf.shape).begin_walk(leaf.shape, line, -infinite, Stretch{}, walk);
   Crossing nearest = near;
   double least = infinite;
   for (SolidWalk::Event event; walk.next(event);) {
@@ -115,8 +115,7 @@ void find_points(const PlacedSurface& leaf, TextureCoordinates wanted, OnLeaf& o
 }
 
 /// A leaf's point as one of the whole.
-LocalPoint of_whole(const Solid::Leaf& leaf, const LocalPoint& of_leaf, bool turned, double time) {
-  const SurfacePoint point = surface_point(leaf.surface, of_leaf, time);
+LocalPoint of_whole(const Solid::Leaf& leaf, const SurfacePoint& point, bool turned) {
   LocalPoint result;
   result.position = point.position;
   result.gradient = leaf.subtracted != turned ? -point.normal : point.normal;
@@ -152,10 +151,15 @@ void points_of(const Shape& shape, const LocalLines& lines, std::span<const Cros
           {parameter_of(part, crossings[i].t), crossings[i].part % parts_of_leaf, crossings[i].unresolved});
     }
     find_points(leaf.surface, wanted, on);
-    for (std::size_t k = 0; k < on.lines.count; ++k) {
+    double times[LocalLines::most];
+    SurfacePoint found[LocalLines::most];
+    const std::size_t count = on.lines.count;
+    for (std::size_t k = 0; k < count; ++k)
+      times[k] = on.lines.clock_start[k] + on.crossings[k].t * on.lines.clock_rate[k];
+    surface_points(leaf.surface, {on.points, count}, {times, count}, {found, count});
+    for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = on.index[k];
-      const double time = on.lines.clock_start[k] + on.crossings[k].t * on.lines.clock_rate[k];
-      points[i] = of_whole(leaf, on.points[k], (crossings[i].part & is_turned) != 0, time);
+      points[i] = of_whole(leaf, found[k], (crossings[i].part & is_turned) != 0);
     }
   }
 }

@@ -4,7 +4,9 @@
 #include <tuple>
 
 #include "backlight/base/thread_memory.h"
+#include "implicit_stretches.h"
 #include "root_searches.h"
+#include "surface_kernels.h"
 
 namespace backlight {
 namespace {
@@ -17,6 +19,8 @@ struct Memory {
   std::vector<LinePiece> pieces;
   std::vector<Root> roots;
   std::vector<int> signs;
+  std::vector<LineStretches> stretches, of_group;
+  std::vector<const Shape*> shapes;
 };
 
 Memory& memory_of_thread() {
@@ -56,14 +60,46 @@ void answer_all(const Solid& solid, Memory& m) {
   }
 }
 
+/// Where along the lines of the whole each of the leaves that move can be; everywhere for the others.
+void find_moving(const Solid& solid, const LocalLines& lines, Memory& m) {
+  m.stretches.resize(solid.leaves().size());
+  for (const std::vector<int>& group : solid.moving_groups()) {
+    LocalLines of_group = lines;
+    for (int k = 0; k < 3; ++k) {
+      std::copy_n(lines.point[k], lines.padded(), of_group.origin[k]);
+      std::copy_n(lines.direction[k], lines.padded(), of_group.along[k]);
+    }
+    std::copy_n(lines.clock_start, lines.padded(), of_group.time);
+    std::copy_n(lines.clock_rate, lines.padded(), of_group.rate);
+    surface_kernels().local_lines(solid.leaves()[static_cast<std::size_t>(group.front())].surface.lanes,
+                                  of_group);
+    // From the rays' own beginnings, since what light meets depends on where it comes from.
+    for (std::size_t i = 0; i < lines.padded(); ++i) {
+      const double per_length = lines.lambda_per_length[i];
+      of_group.lambda_shift[i] =
+          lines.lambda_shift[i] + (of_group.lambda_centre[i] + of_group.lambda_shift[i]) * per_length;
+      of_group.lambda_centre[i] = lines.lambda_centre[i];
+      of_group.lambda_per_length[i] *= per_length;
+    }
+    m.shapes.clear();
+    for (const int leaf : group)
+      m.shapes.push_back(&solid.leaves()[static_cast<std::size_t>(leaf)].surface.shape);
+    m.of_group.resize(group.size());
+    find_stretches(m.shapes, of_group, m.of_group);
+    for (std::size_t g = 0; g < group.size(); ++g)
+      m.stretches[static_cast<std::size_t>(group[g])] = m.of_group[g];
+  }
+}
+
 }  // namespace
 
 void first_of_solid(const Solid& solid, const LocalLines& lines, double lambda_min,
                     std::span<Sweep::Event> first) {
   Memory& m = memory_of_thread();
   m.going.clear();
+  find_moving(solid, lines, m);
   for (std::size_t i = 0; i < lines.count; ++i) {
-    m.sweeps[i].begin(solid, lines.line(i), lambda_min);
+    m.sweeps[i].begin(solid, lines.line(i), lambda_min, {m.stretches.data(), i});
     m.going.push_back(i);
   }
   while (!m.going.empty()) {

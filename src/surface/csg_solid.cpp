@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "backlight/surface/matter_motion.h"
 #include "shape_table.h"
 
 namespace backlight {
@@ -55,6 +56,28 @@ std::string problem(const SolidTree& tree) {
 
 Solid::Solid(const SolidTree& tree) {
   box_ = add(tree, Placement{}, -1, true, false);
+  find_moving_groups();
+}
+
+void Solid::find_moving_groups() {
+  const auto box_of = [](const Leaf& leaf) {
+    return leaf.surface.shape.motion ? leaf.surface.shape.motion->box() : nullptr;
+  };
+  const auto move_as_one = [&](const Leaf& a, const Leaf& b) {
+    return box_of(a)->common == box_of(b)->common && a.surface.lanes.aligned && b.surface.lanes.aligned &&
+           a.surface.position() == b.surface.position();
+  };
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    if (box_of(leaves_[i]) == nullptr) continue;
+    const auto group = std::ranges::find_if(moving_groups_, [&](const std::vector<int>& of) {
+      return move_as_one(leaves_[i], leaves_[static_cast<std::size_t>(of.front())]);
+    });
+    if (group == moving_groups_.end()) {
+      moving_groups_.push_back({static_cast<int>(i)});
+    } else {
+      group->push_back(static_cast<int>(i));
+    }
+  }
 }
 
 AxisBox Solid::add(const SolidTree& tree, const Placement& outer, int parent, bool first, bool subtracted) {

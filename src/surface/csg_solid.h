@@ -30,6 +30,8 @@ class Solid {
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<Leaf>& leaves() const { return leaves_; }
+  /// Leaves that move as one, each of such leaves in one group; all are placed alike within the whole.
+  [[nodiscard]] const std::vector<std::vector<int>>& moving_groups() const { return moving_groups_; }
   /// Encloses the solid, in its local coordinates; infinite where it has no bounds, empty where its parts'
   /// bounds exclude each other.
   [[nodiscard]] const AxisBox& box() const { return box_; }
@@ -37,8 +39,11 @@ class Solid {
  private:
   AxisBox add(const SolidTree& tree, const Placement& outer, int parent, bool first, bool subtracted);
 
+  void find_moving_groups();
+
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
+  std::vector<std::vector<int>> moving_groups_;
   AxisBox box_;
 };
 

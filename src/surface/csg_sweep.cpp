@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "backlight/surface/matter_motion.h"
 #include "shape_table.h"
 
 namespace backlight {
@@ -38,7 +39,7 @@ double size_of(const PlacedSurface& part) {
 
 }  // namespace
 
-void Sweep::begin(const Solid& solid, const LocalLine& line, double lambda_min) {
+void Sweep::begin(const Solid& solid, const LocalLine& line, double lambda_min, const Moving& moving) {
   solid_ = &solid;
   line_ = line;
   lambda_min_ = lambda_min;
@@ -46,15 +47,36 @@ void Sweep::begin(const Solid& solid, const LocalLine& line, double lambda_min) 
   count_ = 0;
   for (std::size_t i = 0; i < solid.leaves().size(); ++i) {
     const Solid::Leaf& leaf = solid.leaves()[i];
-    const Stretch inside = inside_sphere(line, leaf.surface.position(), leaf.reach);
     const int index = static_cast<int>(i);
-    if (!(inside.in <= inside.out) || inside.out < from_ - margin_at(index, from_)) continue;
-    if (count_ == parts_.size()) parts_.emplace_back();
-    Part& part = parts_[count_++];
-    part.leaf = index;
-    part.meets = inside.in;
-    part.begun = false;
+    if (leaf.surface.shape.motion && leaf.surface.shape.motion->box() != nullptr) {
+      add_moving_part(index, moving);
+      continue;
+    }
+    const Stretch inside = inside_sphere(line, leaf.surface.position(), leaf.reach);
+    if (inside.in <= inside.out && !(inside.out < from_ - margin_at(index, from_)))
+      add_part(index, inside.in);
   }
+}
+
+void Sweep::add_part(int leaf, double meets) {
+  if (count_ == parts_.size()) parts_.emplace_back();
+  Part& part = parts_[count_++];
+  part.leaf = leaf;
+  part.meets = meets;
+  part.begun = false;
+  part.within = {};
+}
+
+void Sweep::add_moving_part(int leaf, const Moving& moving) {
+  const LineStretches& its = moving.of_leaf[leaf];
+  Stretch within;
+  within.in = its.in[moving.index];
+  within.out = its.out[moving.index];
+  if (!(within.in <= within.out)) return;
+  const LocalLine own = local_line({line_.point, line_.direction, line_.clock}, surface(leaf));
+  if (own.lambda(within.out) < from_ - margin_at(leaf, from_)) return;
+  add_part(leaf, own.lambda(within.in));
+  parts_[count_ - 1].within = within;
 }
 
 Sweep::Found Sweep::first(Event& crossing) {
@@ -140,7 +162,7 @@ void Sweep::begin_walk(Part& part) {
   part.from = reached_ > -infinite ? reached_ - margin_at(part.leaf, reached_) : -infinite;
   if (const auto begin = methods(shape).begin_walk; begin != nullptr) {
     begin(shape, part.line, part.from > -infinite ? parameter_of(part.line, part.from) : -infinite,
-          part.walk);
+          part.within, part.walk);
   } else {
     part.walk.begin(crossings(shape, part.line, -infinite, Wanted::all));
   }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "body_lanes.h"
 #include "csg_insides.h"
 #include "csg_solid.h"
 #include "solid_walk.h"
@@ -31,7 +32,13 @@ class Sweep {
   };
   enum class Found : std::uint8_t { nothing, crossing, question };
 
-  void begin(const Solid& solid, const LocalLine& line, double lambda_min);
+  /// Where along line `index` the leaves that move can be.
+  struct Moving {
+    const LineStretches* of_leaf;
+    std::size_t index;
+  };
+
+  void begin(const Solid& solid, const LocalLine& line, double lambda_min, const Moving& moving);
 
   /// The first crossing of the boundary of the whole beyond lambda_min; or what is asked has to be answered
   /// first.
@@ -55,6 +62,7 @@ class Sweep {
     bool begun;    ///< its walk along its own line, from `from` on
     LocalLine line;
     double from;
+    Stretch within;  ///< along its own line
     SolidWalk walk;
     Next next;
     double t;
@@ -63,6 +71,8 @@ class Sweep {
 
   [[nodiscard]] const PlacedSurface& surface(int leaf) const;
   [[nodiscard]] double margin_at(int leaf, double t) const;
+  void add_part(int leaf, double meets);
+  void add_moving_part(int leaf, const Moving& moving);
   bool next(Event& crossing);
   Part* nearest(int but_leaf = -1);
   Part* nearest_event();

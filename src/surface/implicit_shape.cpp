@@ -6,10 +6,8 @@
 
 #include "backlight/base/thread_memory.h"
 #include "backlight/surface/implicit_surface.h"
-#include "convex.h"
 #include "implicit_points.h"
-#include "implicit_roots.h"
-#include "moving_ball.h"
+#include "implicit_stretches.h"
 #include "shape_table.h"
 #include "solid_walk.h"
 
@@ -19,18 +17,11 @@ namespace {
 using implicit_value::skips;
 using implicit_value::time_scale;
 
-constexpr int caps = implicit_caps;
-
 Vec3 low_of(const Shape& shape) {
   return implicit_low(shape);
 }
 Vec3 high_of(const Shape& shape) {
   return implicit_high(shape);
-}
-
-/// Whether the bounds go along a path in local coordinates.
-bool goes_away(const Shape& shape) {
-  return shape.motion && shape.motion->ball() && shape.motion->carriage() == nullptr;
 }
 
 std::string problem_of(const Shape& shape) {
@@ -54,38 +45,6 @@ double radius_of(const Shape& shape, const Vec3& factor) {
 double extent_of(const Shape& shape, const Extent& e) {
   const Vec3 reach = glm::max(glm::abs(low_of(shape)), glm::abs(high_of(shape)));
   return reach.x * e.x + reach.y * e.y + reach.z * e.z;
-}
-
-/// The part of a line within bounds that are wider by `room`.
-Stretch inside_bounds(const Shape& shape, const LocalLine& line, const Vec3& room = Vec3{0.0}) {
-  if (goes_away(shape)) return inside_ball(*shape.motion, line);
-  const Vec3 centre = 0.5 * low_of(shape) + 0.5 * high_of(shape);
-  const Vec3 half = 0.5 * high_of(shape) - 0.5 * low_of(shape) + room;
-  LaneStretch<Lanes<1>> stretch;
-  for (int i = 0; i < 3; ++i) {
-    stretch.narrow_to_slab(line.point[i] - centre[i], line.direction[i], half[i], 2 * i + caps);
-  }
-  return Stretch(stretch);
-}
-
-/// Where surfaces are looked for: a face of the bounds that happens to be one is not lost by rounding.
-Stretch with_faces(const Shape& shape, const LocalLine& line) {
-  constexpr double few_roundings = 4.0 * std::numeric_limits<double>::epsilon();
-  return inside_bounds(shape, line,
-                       few_roundings * glm::max(glm::abs(low_of(shape)), glm::abs(high_of(shape))));
-}
-
-FormulaLine formula_line(const Shape& shape, const LocalLine& line) {
-  const Vec3& p = line.point;
-  const Vec3& d = line.direction;
-  const double scale = shape.values[time_scale];
-  return {{p.x, p.y, p.z, scale * line.clock.start}, {d.x, d.y, d.z, scale * line.clock.rate}};
-}
-
-/// The same of several lines.
-void with_faces(const Shape& shape, const LocalLines& lines, Stretch (&stretches)[LocalLines::most]) {
-  if (goes_away(shape)) return inside_ball(*shape.motion, lines, stretches);
-  for (std::size_t i = 0; i < lines.count; ++i) stretches[i] = with_faces(shape, lines.line(i));
 }
 
 /// For the statistics.
@@ -132,11 +91,11 @@ FirstOnLine first_that_counts(const Shape& shape, const LocalLine& line, const L
 }
 
 /// Puts the question for the roots of a line beyond lambda_min, if it is inside the bounds there.
-void ask(const Shape& shape, const LocalLine& line, const Stretch& stretch, double start, std::size_t i,
+void ask(const Shape& shape, const LocalLine& line, double in, double out, double start, std::size_t i,
          Questions& q) {
-  const double from = std::max(stretch.in, start);
-  if (!(from <= stretch.out)) return;
-  q.pieces.push_back({formula_line(shape, line), from, stretch.out});
+  const double from = std::max(in, start);
+  if (!(from <= out)) return;
+  q.pieces.push_back({formula_line(shape, line), from, out});
   q.line_of.push_back(i);
 }
 
@@ -146,14 +105,13 @@ void answer(const Shape& shape, Questions& q, RootsWanted wanted) {
 }
 
 /// Of lines of which the stretches within the bounds are known.
-void first_crossings_within(const Shape& shape, const LocalLines& lines,
-                            const Stretch (&stretches)[LocalLines::most], double lambda_min,
-                            std::span<FirstOnLine> results) {
+void first_crossings_within(const Shape& shape, const LocalLines& lines, const LineStretches& stretches,
+                            double lambda_min, std::span<FirstOnLine> results) {
   std::fill_n(results.begin(), lines.count, FirstOnLine{});
   Questions& q = questions_of_thread();
   for (std::size_t i = 0; i < lines.count; ++i) {
     const LocalLine line = lines.line(i);
-    ask(shape, line, stretches[i], lines.at_lambda(i, lambda_min), i, q);
+    ask(shape, line, stretches.in[i], stretches.out[i], lines.at_lambda(i, lambda_min), i, q);
   }
   answer(shape, q, RootsWanted::places);
   for (std::size_t k = 0; k < q.pieces.size(); ++k) {
@@ -168,8 +126,9 @@ void first_crossings_within(const Shape& shape, const LocalLines& lines,
 
 void first_crossings_of(const Shape& shape, const LocalLines& lines, double lambda_min,
                         std::span<FirstOnLine> results) {
-  Stretch stretches[LocalLines::most];
-  with_faces(shape, lines, stretches);
+  const Shape* const one = &shape;
+  LineStretches stretches;
+  find_stretches({&one, 1}, lines, {&stretches, 1});
   first_crossings_within(shape, lines, stretches, lambda_min, results);
 }
 
@@ -179,17 +138,19 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
   Questions& q = questions_of_thread();
   LocalLines ending;  // before they leave the bounds: there the place of a root matters
   std::size_t line_of[LocalLines::most];
-  Stretch stretches[LocalLines::most], of_ending[LocalLines::most];
-  with_faces(shape, lines, stretches);
+  const Shape* const one = &shape;
+  LineStretches stretches, of_ending;
+  find_stretches({&one, 1}, lines, {&stretches, 1});
   for (std::size_t i = 0; i < lines.count; ++i) {
     const LocalLine line = lines.line(i);
-    const Stretch& stretch = stretches[i];
-    if (lines.is_before(i, stretch.out, lambda_max)) {
-      ask(shape, line, stretch, lines.at_lambda(i, lambda_min), i, q);
+    const double in = stretches.in[i], out = stretches.out[i];
+    if (lines.is_before(i, out, lambda_max)) {
+      ask(shape, line, in, out, lines.at_lambda(i, lambda_min), i, q);
     } else {
-      if (!(stretch.in <= stretch.out)) continue;
+      if (!(in <= out)) continue;
       line_of[ending.count] = i;
-      of_ending[ending.count] = stretch;
+      of_ending.in[ending.count] = in;
+      of_ending.out[ending.count] = out;
       ending.add(line);
     }
   }
@@ -209,9 +170,12 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
   }
 }
 
-void begin_walk(const Shape& shape, const LocalLine& line, double from, SolidWalk& walk) {
-  walk.begin(*shape.formula, formula_line(shape, line), inside_bounds(shape, line), from,
-             shape.values[skips] == 0.0);
+void begin_walk(const Shape& shape, const LocalLine& line, double from, const Stretch& within,
+                SolidWalk& walk) {
+  Stretch stretch = inside_bounds(shape, line);
+  stretch.in = std::max(stretch.in, within.in);
+  stretch.out = std::min(stretch.out, within.out);
+  walk.begin(*shape.formula, formula_line(shape, line), stretch, from, shape.values[skips] == 0.0);
 }
 
 }  // namespace

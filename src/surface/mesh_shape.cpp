@@ -63,7 +63,8 @@ void blocks(const Shape& shape, const LocalLines& lines, double lambda_min, doub
   for (std::size_t k = 0; k < lines.count; ++k) results[k] = t[k] < infinite;
 }
 
-void begin_walk(const Shape& shape, const LocalLine& line, double /*from*/, SolidWalk& walk) {
+void begin_walk(const Shape& shape, const LocalLine& line, double /*from*/, const Stretch& /*within*/,
+                SolidWalk& walk) {
   LocalLines one;
   one.add(line);
   std::vector<Crossing> found;

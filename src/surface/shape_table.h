@@ -17,6 +17,7 @@
 namespace backlight {
 
 class SolidWalk;
+struct Stretch;
 struct PlacedSurface;
 
 /// A crossing at line.at(t).
@@ -96,8 +97,10 @@ struct ShapeMethods {
   /// The point of a crossing that `crossings` reported for this line.
   LocalPoint (*point)(const Shape&, const LocalLine&, const Crossing&);
   /// Begins the walk over the crossings of a shape that may have more than four; it may leave out those
-  /// before the line's parameter `from`. Null: `crossings` reports them all.
-  void (*begin_walk)(const Shape&, const LocalLine&, double from, SolidWalk&) = nullptr;
+  /// before the line's parameter `from`, and all is known to be `within` a stretch. Null: `crossings` reports
+  /// them all.
+  void (*begin_walk)(const Shape&, const LocalLine&, double from, const Stretch& within,
+                     SolidWalk&) = nullptr;
   /// The first crossings of many lines at once, each as `crossings` would report it; null: those of a
   /// closed form (closed_forms.h).
   void (*first_crossings)(const Shape&, const LocalLines&, double lambda_min,

@@ -1,6 +1,7 @@
 // What is computed for many lines at once, in the widths that lanes come in: the same bits from each.
 #pragma once
 
+#include "body_lanes.h"
 #include "local_lines.h"
 #include "mesh_points.h"
 #include "mesh_walk.h"
@@ -21,6 +22,8 @@ struct SurfaceKernels {
   decltype(&Walk<1>::blocked) blocked;
   decltype(&Walk<1>::points) points;
   void (*find_passings)(PassingSheet&);
+  void (*inside_box)(const double (&centre)[3], const double (&half)[3], const LocalLines&, LineStretches&);
+  void (*meet_box)(const BodyBox&, const CommonRows&, LineStretches&);
 };
 
 template <class V>
@@ -34,7 +37,9 @@ SurfaceKernels surface_kernels_of() {
           .nearest = W::nearest,
           .blocked = W::blocked,
           .points = W::points,
-          .find_passings = find_passings<V>};
+          .find_passings = find_passings<V>,
+          .inside_box = inside_box<V>,
+          .meet_box = meet_box<V>};
 }
 
 SurfaceKernels baseline_surface_kernels();

@@ -10,27 +10,30 @@ SurfacePoint surface_point(const PlacedSurface& surface, const LocalLine& line, 
                        line.clock.start + crossing.t * line.clock.rate);
 }
 
-namespace {
-
-/// What the motion says of the matter, in local coordinates: its own texture is what it takes along.
-LocalPoint with_motion(const PlacedSurface& surface, const MatterMotion& motion, LocalPoint point,
-                       double time) {
-  Mat3 rest_from_local(1.0);
+void add_motion(const PlacedSurface& surface, std::span<LocalPoint> points, std::span<const double> times) {
+  constexpr std::size_t window = LocalLines::most;
+  const MatterMotion& motion = *surface.shape.motion;
+  const LaneMatrix& rest_from_local = surface.lanes.rest_from_local;
+  Mat3 matrix(1.0);
   for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r) rest_from_local[c][r] = surface.lanes.rest_from_local.column[c][r];
-  if (!point.moves) point.velocity = motion.velocity(point.position, time);
-  point.moves = true;
-  if (motion.counts_time()) point.own_time = motion.own_time(point.position, time, rest_from_local);
-  if (const Shape* body = motion.body_shape(); body != nullptr) {
-    LocalPoint of_body{.position = motion.body_point(point.position, time)};
-    texture_of_body(*body, of_body);
-    point.u = of_body.u;
-    point.v = of_body.v;
+    for (int r = 0; r < 3; ++r) matrix[c][r] = rest_from_local.column[c][r];
+  Vec3 places[window];
+  MatterMotion::Matter found[window];
+  for (std::size_t i = 0; i < points.size(); ++i) places[i] = points[i].position;
+  motion.matter({places, points.size()}, times, {found, points.size()});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    LocalPoint& point = points[i];
+    if (!point.moves) point.velocity = found[i].velocity;
+    point.moves = true;
+    if (motion.counts_time()) point.own_time = motion.own_time(point.position, times[i], matrix);
+    if (const Shape* body = motion.body_shape(); body != nullptr) {
+      LocalPoint of_body{.position = found[i].body_point};
+      texture_of_body(*body, of_body);
+      point.u = of_body.u;
+      point.v = of_body.v;
+    }
   }
-  return point;
 }
-
-}  // namespace
 
 SurfacePoint placed_point(const PlacedSurface& surface, const LocalPoint& point) {
   const LanePoint<Lanes<1>> placed = in_rest_frame<Lanes<1>>(
@@ -72,12 +75,20 @@ SurfacePoint carried_point(const PlacedSurface& surface, const LocalPoint& point
 }  // namespace
 
 SurfacePoint surface_point(const PlacedSurface& surface, const LocalPoint& point, double time) {
-  if (surface.lanes.is_carried) return carried_point(surface, point, time);
-  const MatterMotion* motion = surface.shape.motion.get();
-  SurfacePoint placed =
-      placed_point(surface, motion != nullptr ? with_motion(surface, *motion, point, time) : point);
-  if (!placed.moves) placed.own_time = time;
-  return placed;
+  LocalPoint with_motion = point;
+  SurfacePoint found;
+  surface_points(surface, {&with_motion, 1}, {&time, 1}, {&found, 1});
+  return found;
+}
+
+void surface_points(const PlacedSurface& surface, std::span<LocalPoint> points, std::span<const double> times,
+                    std::span<SurfacePoint> found) {
+  const bool is_carried = surface.lanes.is_carried;
+  if (surface.shape.motion && !is_carried) add_motion(surface, points, times);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    found[i] = is_carried ? carried_point(surface, points[i], times[i]) : placed_point(surface, points[i]);
+    if (!found[i].moves) found[i].own_time = times[i];
+  }
 }
 
 }  // namespace backlight

@@ -166,17 +166,40 @@ void points_by_lines(const PlacedSurface& surface, const Near& near, const Sheet
   }
   const auto wanted = textured ? TextureCoordinates::wanted : TextureCoordinates::unwanted;
   methods(surface.shape).points(surface.shape, near.lines, {crossings, count}, wanted, {local, count});
+  double times[LocalLines::most];
+  SurfacePoint found[LocalLines::most];
+  for (std::size_t i = 0; i < count; ++i)
+    times[i] = near.lines.clock_start[i] + crossings[i].t * near.lines.clock_rate[i];
+  surface_points(surface, {local, count}, {times, count}, {found, count});
+  for (std::size_t i = 0; i < count; ++i) put(found[i], near.ray_of[i], out);
+}
+
+/// Of matter that moves along its own surface: what its motion says of the points that lanes have found, told
+/// in local coordinates.
+void add_motion_to(const PlacedSurface& surface, const Near& near, const SheetHits& hits,
+                   const double (&local)[3][sheet_size], SheetPoints& out) {
+  LocalPoint points[LocalLines::most];
+  double times[LocalLines::most];
+  const std::size_t count = near.lines.count;
   for (std::size_t i = 0; i < count; ++i) {
-    const double time = near.lines.clock_start[i] + crossings[i].t * near.lines.clock_rate[i];
-    put(surface_point(surface, local[i], time), near.ray_of[i], out);
+    const int ray = near.ray_of[i];
+    points[i].position = {local[0][ray], local[1][ray], local[2][ray]};
+    times[i] = near.lines.clock_start[i] + hits.along[ray] * near.lines.clock_rate[i];
+  }
+  add_motion(surface, {points, count}, {times, count});
+  for (std::size_t i = 0; i < count; ++i) {
+    const int ray = near.ray_of[i];
+    const Vec3 velocity = vec3(surface.lanes.rest_from_local.times(one_lane(points[i].velocity)));
+    for (int k = 0; k < 3; ++k) out.velocity[k][ray] = velocity[k];
+    out.own_time[ray] = points[i].own_time;
+    out.u[ray] = points[i].u;
+    out.v[ray] = points[i].v;
   }
 }
 
-/// Whether lanes know all of the points of something that moves.
-bool has_point_of_lanes(const Shape& shape, bool textured) {
-  if (shape.motion->carriage() != nullptr) return true;
-  return shape.kind == ShapeKind::travelling_ball && !travelling_ball_turns(shape) &&
-         !shape.motion->counts_time() && !textured;
+/// Whether the points of a travelling ball are not all that is asked of it.
+bool tells_more_than_points(const Shape& shape, bool textured) {
+  return travelling_ball_turns(shape) || shape.motion->counts_time() || textured;
 }
 
 }  // namespace
@@ -224,19 +247,21 @@ void SurfaceSet::points(const RaySheet& given, int surface, int first, int last,
     return;
   }
   const auto texture = has.texture;
-  // What moves along its own surface is asked for its motion point by point.
-  const bool singly = placed.shape.presence != nullptr ||
-                      (placed.shape.motion && !has_point_of_lanes(placed.shape, with_texture_coordinates));
   if (texture == nullptr) {
     points_by_lines(placed, Near(placed, sheet, all), hits, with_texture_coordinates, points);
     return;
   }
+  const bool travels = placed.shape.kind == ShapeKind::travelling_ball;
+  const bool turns = placed.shape.motion && !placed.lanes.is_carried && !travels;
+  const bool singly = placed.shape.presence != nullptr ||
+                      (travels && tells_more_than_points(placed.shape, with_texture_coordinates));
   double local[3][sheet_size];
   std::uint64_t left = singly ? all
                               : surface_kernels(sheet.instructions)
                                     .points(placed.lanes, sheet, first, last, hits, points,
-                                            with_texture_coordinates ? local : nullptr);
-  for (int i = first; i < last && with_texture_coordinates && !singly; ++i) {
+                                            with_texture_coordinates || turns ? local : nullptr);
+  if (turns && !singly) add_motion_to(placed, Near(placed, sheet, all), hits, local, points);
+  for (int i = first; i < last && with_texture_coordinates && !singly && !turns; ++i) {
     LocalPoint point{.position = {local[0][i], local[1][i], local[2][i]}};
     texture(placed.shape, hits.part_of(i), point);
     points.u[i] = point.u;

@@ -36,6 +36,8 @@ class Composer {
 
   /// The expression of a node. `text`: what Expression::text() will say.
   [[nodiscard]] Expression expression(Node root, std::string text) const;
+  /// Of several nodes: what they have in common is computed once.
+  [[nodiscard]] Tape tape(std::span<const Node> roots) const;
 
  private:
   std::unique_ptr<Graph> graph_;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "backlight/expression/line_polynomials.h"
@@ -77,6 +78,18 @@ class LineBatch {
 /// asked for on a processor without it.
 enum class LineWidth : std::uint8_t { automatic, baseline, avx2 };
 
+/// Where the values and slopes of one result of a tape go, and the affine forms (affine.h) of one: a number
+/// for each line.
+struct LineNumbers {
+  double* value;
+  double* slope;
+};
+struct LineForms {
+  double* centre;
+  double* slope;
+  double* error;
+};
+
 /// A tape made ready for lines. Immutable; safe to use from many threads, each with a workspace of its own.
 class LineProgram {
  public:
@@ -109,6 +122,14 @@ class LineProgram {
 
   /// Values and slopes at `from`, in double precision: Expression::evaluate to a few ulp (of each operation).
   void numbers(LineBatch& lines, std::size_t count, std::vector<double>& workspace) const;
+  /// The same of each of the tape's results.
+  void all_numbers(LineBatch& lines, std::size_t count, std::vector<double>& workspace,
+                   std::span<const LineNumbers> results) const;
+
+  /// Affine forms over [from, to] of each of the tape's results; where there is none, the errors are
+  /// infinite.
+  void forms(LineBatch& lines, std::size_t count, std::vector<double>& workspace,
+             std::span<const LineForms> results) const;
 
   /// The expression as a polynomial on [from, to] of the first `count` lines, at most LinePolynomials::most.
   /// To be asked of polynomials only.

@@ -22,8 +22,9 @@ struct Instruction {
   std::uint32_t b;
 };
 
-/// A straight-line program. The value is in register 0 after the last instruction. `out` may be the same
-/// register as an operand: operands are read before the result is written.
+/// A straight-line program. The value is in register 0 after the last instruction; of several values, those
+/// beyond the first are in the registers 1, 2 ... `out` may be the same register as an operand: operands are
+/// read before the result is written.
 struct Tape {
   std::vector<Instruction> instructions;
   std::vector<double> constants;

@@ -5,9 +5,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "backlight/base/vector.h"
 #include "backlight/expression/expression.h"
+#include "backlight/expression/line_program.h"
+#include "backlight/surface/body_box.h"
 #include "backlight/surface/shape.h"
 #include "backlight/surface/wave_path.h"
 
@@ -32,6 +35,8 @@ class MatterMotion {
     /// Of the matter within the body, in its coordinates, in lengths for a second; without one its points
     /// rest.
     std::optional<Map> flow{};
+    /// About all of it, if one is known.
+    std::optional<BodyBox> box{};
   };
 
   /// Of a surface that goes away: a ball that holds it at all times, whose centre goes along a path. Local
@@ -72,11 +77,17 @@ class MatterMotion {
   /// The velocity of a flow in local lengths for a second; null of a body.
   [[nodiscard]] const Map* flow() const { return velocity_ ? &*velocity_ : nullptr; }
 
-  /// Which body point is at a place; the place itself where that is not told.
-  [[nodiscard]] Vec3 body_point(const Vec3& place, double time) const;
+  /// A box about the body; null: none is known.
+  [[nodiscard]] const BodyBox* box() const { return body_ && body_->box ? &*body_->box : nullptr; }
 
-  /// Of the matter at a place.
-  [[nodiscard]] Vec3 velocity(const Vec3& place, double time) const;
+  /// The matter at a place.
+  struct Matter {
+    Vec3 body_point;  ///< the place itself where that is not told
+    Vec3 velocity;
+  };
+  [[nodiscard]] Matter matter(const Vec3& place, double time) const;
+  /// At several places, each at its time; of each the same as alone.
+  void matter(std::span<const Vec3> places, std::span<const double> times, std::span<Matter> found) const;
 
   /// Whether own times are asked for.
   [[nodiscard]] bool counts_time() const { return time_.counts; }
@@ -103,11 +114,13 @@ class MatterMotion {
   [[nodiscard]] double strays(const Vec3& velocity, double time, double half_time) const;
 
  private:
+  void find_velocities(std::span<const double> times, std::span<Matter> found) const;
   [[nodiscard]] Vec3 velocity_of(const Vec3& body_point, double time) const;
   [[nodiscard]] double change_of_velocity(const Vec3& velocity, double from, double to) const;
   [[nodiscard]] Vec3 given_velocity(const Vec3& place, double time) const;
 
   std::optional<Body> body_;
+  std::optional<LineProgram> place_, point_;  ///< the body's, each as one
   Shape body_shape_;
   std::optional<Map> velocity_;
   std::optional<Vec3> carriage_;

@@ -6,6 +6,7 @@
 #include <mpfr.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -16,6 +17,7 @@
 #include "backlight/base/instruction_sets.h"
 #include "backlight/base/lane_waves.h"
 #include "backlight/expression/affine.h"
+#include "backlight/expression/compose.h"
 #include "backlight/expression/enclosure.h"
 #include "backlight/expression/expression.h"
 
@@ -270,6 +272,79 @@ TEST(Waves, AreWithinTheirBoundOfTheExactValues) {
   mpfr_clears(x, v, nullptr);
   EXPECT_LT(worst, wave_error);
   EXPECT_GT(worst, 0.0);
+}
+
+struct ManyResults {
+  double numbers[3][2][40], forms[3][3][40];
+
+  void find(const LineProgram& program, LineBatch& lines, std::size_t count) {
+    std::vector<double> workspace;
+    const LineNumbers number_rows[3]{
+        {numbers[0][0], numbers[0][1]}, {numbers[1][0], numbers[1][1]}, {numbers[2][0], numbers[2][1]}};
+    const LineForms form_rows[3]{{forms[0][0], forms[0][1], forms[0][2]},
+                                 {forms[1][0], forms[1][1], forms[1][2]},
+                                 {forms[2][0], forms[2][1], forms[2][2]}};
+    program.all_numbers(lines, count, workspace, number_rows);
+    program.forms(lines, count, workspace, form_rows);
+  }
+};
+
+// Formulas that have parts in common, one of them twice, on one tape: each is what it is by itself.
+TEST(LineProgram, SeveralResultsAreThoseOfEachAlone) {
+  constexpr std::size_t count = 37;
+  const std::vector<std::string> texts{"x*cos(3*t) - y*sin(3*t)", "x*sin(3*t) + y*cos(3*t) + sqrt(z + 3.5)",
+                                       "x*cos(3*t) - y*sin(3*t)"};
+  Composer composer(variables);
+  std::vector<Composer::Node> at, results;
+  for (std::size_t v = 0; v < variables; ++v) at.push_back(composer.variable(v));
+  for (const std::string& text : texts) {
+    results.push_back(
+        composer.insert(std::get<Expression>(Expression::parse(text, {"x", "y", "z", "t"})), at));
+  }
+  const LineProgram together(composer.tape(results));
+  LineBatch lines = random_lines(count, 11);
+  ManyResults all;
+  all.find(together, lines, count);
+  std::size_t without_form = 0;
+  for (std::size_t r = 0; r < 3; ++r) {
+    const Tape alone = tape_of(texts[r]);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::array<double, variables> origin{}, direction{};
+      for (std::size_t v = 0; v < variables; ++v) {
+        origin[v] = lines.origin(v)[i];
+        direction[v] = lines.direction(v)[i];
+      }
+      const double from = lines.from()[i], to = lines.to()[i];
+      const AffineForm form = enclose_affine(alone, {origin, direction}, from, to);
+      const double* const found[3]{all.forms[r][0] + i, all.forms[r][1] + i, all.forms[r][2] + i};
+      if (std::isinf(*found[2])) {
+        EXPECT_LE(origin[2] + std::min(from * direction[2], to * direction[2]), -3.5 + 1e-9) << "others have";
+        ++without_form;
+      } else {
+        EXPECT_EQ(*found[0], form.centre);
+        EXPECT_EQ(*found[1], form.slope);
+        EXPECT_EQ(*found[2], form.error);
+      }
+      LineBatch one(1);
+      one.put(0, origin, direction, from, to);
+      std::vector<double> workspace;
+      LineProgram(alone).numbers(one, 1, workspace);
+      EXPECT_TRUE(same(all.numbers[r][0][i], one.value()[0]));
+      EXPECT_TRUE(same(all.numbers[r][1][i], one.slope()[0]));
+    }
+  }
+  EXPECT_GT(without_form, 0U);
+  EXPECT_LT(without_form, count / 2);
+  for (const LineWidth width : narrower_widths()) {
+    ManyResults narrow;
+    narrow.find(LineProgram(together.tape(), width), lines, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t r = 0; r < 3; ++r) {
+        for (int k = 0; k < 3; ++k) EXPECT_EQ(narrow.forms[r][k][i], all.forms[r][k][i]);
+        for (int k = 0; k < 2; ++k) EXPECT_TRUE(same(narrow.numbers[r][k][i], all.numbers[r][k][i]));
+      }
+    }
+  }
 }
 
 }  // namespace
