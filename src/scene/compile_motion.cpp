@@ -190,7 +190,6 @@ class MotionCompiler {
     MovingShape moving{shape, Placement(middle + path->start() + centre, *rotate, *scale)};
     SurfaceSet one;
     one.add(shape, turned);
-    if (one.is_smooth(0)) return std::nullopt;  // equation (24) is known to the surface's own normal alone
     moving.shape.motion =
         std::make_shared<const MatterMotion>(path->velocity(), one.bounds(0).radius, clock_of(c_));
     return moving;

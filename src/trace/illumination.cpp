@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "matter_normal.h"
+
 namespace backlight {
 
 LampMoment way_to_moving(const Light& light, const Vec3& place, double event_time) {
@@ -108,11 +110,7 @@ namespace {
 void go_along(const RestRayEvents& ray, bool light_delay, SeenPoint& point) {
   point.proper_time = point.surface.own_time;
   point.matter = boost_by<Rest, Rest>(point.surface.velocity);
-  const Vec3& w = point.matter.celerity();
-  const double gamma = point.matter.gamma();
-  const Vec3& g = point.surface.normal;
-  const Vec3 normal = g - glm::dot(g, w) / (gamma * (gamma + 1.0)) * w;
-  point.normal = (1.0 / std::sqrt(glm::dot(normal, normal))) * normal;
+  point.normal = normal_of_matter(point.matter, point.surface.normal);
   if (light_delay) {
     const NullDirection<Rest> n = point.matter(NullDirection<Rest>{-point.to_camera, 1.0});
     point.doppler = 1.0 / n.length;
@@ -138,9 +136,13 @@ SeenPoint seen_point(const Hub& hub, RayInFrames& rays, const FirstHit& hit) {
   point.normal = point.surface.normal;
   point.time = ray.at(hit.lambda).t;
   point.proper_time = point.time;
-  if (surfaces.moves(hit.hit.surface)) go_along(ray, light_delay, point);
+  const bool moves = surfaces.moves(hit.hit.surface);
+  if (moves) go_along(ray, light_delay, point);
   const bool outside = glm::dot(point.normal, point.to_camera) >= 0.0;
-  if (surfaces.is_smooth(hit.hit.surface)) point.normal = point.surface.shading_normal;
+  if (surfaces.is_smooth(hit.hit.surface)) {
+    const Vec3& shading = point.surface.shading_normal;
+    point.normal = moves ? normal_of_matter(point.matter, shading) : shading;
+  }
   point.side = outside ? point.surface.normal : -point.surface.normal;
   if (!outside) point.normal = -point.normal;
   return point;

@@ -6,6 +6,7 @@
 
 #include "backlight/camera/sample_digits.h"
 #include "leg.h"
+#include "matter_normal.h"
 
 namespace backlight {
 namespace {
@@ -119,7 +120,9 @@ Leg Tracer::mirrored(const PassedOn& from, const RayInFrames& rays) const {
   // By a mesh's smooth normals it may go into the mesh, near an outline.
   const SurfaceSet& surfaces = *hub_.frames[static_cast<std::size_t>(point.hit.frame)].scene->surfaces;
   const bool smooth = surfaces.is_smooth(point.hit.hit.surface);
-  if (smooth && !(glm::dot(turned, point.side) > 0.0)) turned = about(point.side);
+  const bool rests = point.matter.is_identity();
+  const Vec3 facet = smooth && !rests ? normal_of_matter(point.matter, point.side) : point.side;
+  if (smooth && !(glm::dot(turned, facet) > 0.0)) turned = about(facet);
   Leg next = passed_on(from, turned, point.surface.error_bound * point.side, rays);
   next.media = from.leg.media;
   next.ray.index = index_of(next.media);

@@ -446,13 +446,19 @@ struct KernelsOf {
     return V(gamma) * V::load(p.gamma + i) + dot(V3(way), load3<V>(p.celerity, i));
   }
 
-  /// Equations (23) and (24): a unit normal, where the ray came from, and D on the way, of matter that moves.
-  static BACKLIGHT_LANES void go_along(const PointSheet& p, int i, V3& normal, V3& to_camera, V& doppler) {
+  /// Equation (24): what a normal in the base is for the matter that moves at i.
+  static BACKLIGHT_LANES V3 normal_of_matter(const PointSheet& p, int i, V3 normal) {
     const V one = V(1.0);
     const V3 w = load3<V>(p.celerity, i);
     const V gamma = V::load(p.gamma + i);
     const V3 g = normal - dot(normal, w) / (gamma * (gamma + one)) * w;
-    normal = (one / sqrt(dot(g, g))) * g;
+    return (one / sqrt(dot(g, g))) * g;
+  }
+
+  /// Equations (23) and (24): a unit normal, where the ray came from, and D on the way, of matter that moves.
+  static BACKLIGHT_LANES void go_along(const PointSheet& p, int i, V3& normal, V3& to_camera, V& doppler) {
+    const V one = V(1.0);
+    normal = normal_of_matter(p, i, normal);
     if (p.light_delay) {
       const LaneNull<V> n = with_matter(p, i, -to_camera, one);
       const V matter = one / n.length;
@@ -478,7 +484,10 @@ struct KernelsOf {
       if (p.moves) go_along(p, i, normal, to_camera, doppler);
       const Mask outside = dot(normal, to_camera) >= V(0.0);
       const V3 seen = select(outside, surface, -surface);
-      if (p.smooth) normal = load3<V>(p.points.shading_normal, i);
+      if (p.smooth) {
+        normal = load3<V>(p.points.shading_normal, i);
+        if (p.moves) normal = normal_of_matter(p, i, normal);
+      }
       const V begin = p.starts == nullptr ? V(p.rays.start_time[0]) : V::load(p.rays.start_time + i);
       const V time = begin + V::load(p.hits->lambda + i) * V::load(p.rays.time_rate + i);
       store3(select(outside, normal, -normal), p.points.normal, i);

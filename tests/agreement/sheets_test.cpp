@@ -565,6 +565,7 @@ TEST(Sheets, OfMeshesAreTheLaw) {
     field.spheres = 3;
     field.more =
         mesh(ball, "position = [-1.5, 0, 0]\nbeta = " + std::string(beta)) +
+        mesh(ball, "position = [\"-0.5 + 0.5*t\", \"-1 + 0.3*t\", 1]\nscale = [0.5, 0.7, 0.5]") +
         mesh(ball,
              "position = [1.5, 0.2, 0]\nsmooth = false\nrotate = [20, 30, 40]\nscale = [1, 0.5, -0.8]") +
         mesh(ring,

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "matter_scenes.h"
 #include "meshes.h"
@@ -111,6 +113,58 @@ TEST(Meshes, ShowWhatTheShapesDo) {
   expect_twins(near, ball, "shape = \"sphere\"\nradius = 1.2", oblique, 2e-3, 0.02);
   const std::string ring = mesh_keys("fine_ring", torus_mesh(1.2, 0.5, 200, 100), "");
   expect_twins(near, ring, "shape = \"torus\"\nmajor = 1.2\nminor = 0.5", oblique, 5e-3, 0.03);
+}
+
+/// A body that goes on by a position of t, or by the velocity of its frame; it is stretched by γ along x
+/// there.
+struct Travelling {
+  const char* name;
+  std::string keys;   ///< of the object itself
+  std::string parts;  ///< its tables
+};
+
+std::string by_path(const Travelling& body, const Vec3& start, const Oblique& motion) {
+  return "[[object]]\n" + body.keys + path(start, motion.velocity()) + motion.rotate(20) + body.parts;
+}
+
+std::string by_frame(const Travelling& body, const Vec3& start, const Oblique& motion) {
+  const Vec3 stretch{lorentz_factor(motion.velocity()), 1.0, 1.0};
+  return "[[object]]\n" + body.keys + "position = " + list(start) + "\nbeta = " + list(motion.velocity()) +
+         "\nscale = " + list(stretch) + "\n" + motion.rotate(20) + body.parts;
+}
+
+// Smooth normals obey equation (24), as the surface's own does.
+TEST(Meshes, GoStraightOnByAPathAsByTheirFrame) {
+  const std::string ball = mesh_keys("carried", icosphere(1, 1.1), ""), parts = "[[object.part]]\n";
+  const std::string colour = "material = { color = [0.7, 0.2, 0.1], specular = 0.3 }\n";
+  const std::vector<Travelling> bodies = {
+      {"coloured", ball + colour, ""},
+      {"mirror", ball + "material = { mirror = [0.9, 0.6, 0.3], color = [0.1, 0.1, 0.1] }\n", ""},
+      {"solid", "shape = \"difference\"\n" + colour,
+       parts + ball + parts + "shape = \"sphere\"\nradius = 0.7\nposition = [0, 0.3, -0.9]\n"},
+      {"cut by a mesh", "shape = \"difference\"\n" + colour,
+       parts + "shape = \"box\"\nsize = [2, 2, 2]\n" + parts + ball + "position = [0, 0.3, -0.9]\n"}};
+  const std::string stage = "c = 1\n" + film(64, 48) +
+                            "bounces = 3\n[camera]\nposition = [0, 0, 0]\ndirection = [0, 0, 1]\nfov = 40\n"
+                            "[[light]]\nposition = [-3, 5, -1]\nintensity = 100\n"
+                            "[[light]]\ntype = \"distant\"\ndirection = [1, -1, 0.7]\nirradiance = 1\n"
+                            "[[object]]\nshape = \"box\"\nsize = [40, 0.5, 40]\nposition = [0, -2, 0]\n"
+                            "material = { color = [0.6, 0.6, 0.5] }\n";
+  const Vec3 seen_at{0.2, 0.1, 5};
+  for (const Oblique& motion : {Oblique{0.6, 0, 0}, Oblique{0.6}, Oblique{0.95}, Oblique{0.6, 90, 0}}) {
+    const Vec3 start = seen_at + glm::length(seen_at) * motion.velocity();
+    for (const Travelling& body : bodies) {
+      const std::string what = std::string(body.name) + " at " + list(motion.velocity()) + ": ";
+      const Match m = match(render_text(stage + by_path(body, start, motion)),
+                            render_text(stage + by_frame(body, start, motion)));
+      EXPECT_GT(m.seen, 700) << what;
+      EXPECT_EQ(m.other_id, 0) << what;
+      EXPECT_LT(m.distance.error, 1e-6) << what << m.distance.where;
+      EXPECT_LT(m.doppler.error, 1e-6) << what << m.doppler.where;
+      EXPECT_LT(m.normal.error, 1e-6) << what << m.normal.where;
+      EXPECT_LT(m.colour.error, 1e-5) << what << m.colour.where;
+    }
+  }
 }
 
 }  // namespace
