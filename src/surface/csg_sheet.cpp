@@ -60,11 +60,11 @@ void answer_all(const Solid& solid, Memory& m) {
   }
 }
 
-/// Where along the lines of the whole each of the leaves that move can be; everywhere for the others.
+/// Where along the lines of the whole each of the leaves that move can be.
 void find_moving(const Solid& solid, const LocalLines& lines, Memory& m) {
-  m.stretches.resize(solid.leaves().size());
   for (const std::vector<int>& group : solid.moving_groups()) {
-    LocalLines of_group = lines;
+    LocalLines of_group;
+    of_group.count = lines.count;
     for (int k = 0; k < 3; ++k) {
       std::copy_n(lines.point[k], lines.padded(), of_group.origin[k]);
       std::copy_n(lines.direction[k], lines.padded(), of_group.along[k]);
@@ -84,8 +84,9 @@ void find_moving(const Solid& solid, const LocalLines& lines, Memory& m) {
     m.shapes.clear();
     for (const int leaf : group)
       m.shapes.push_back(&solid.leaves()[static_cast<std::size_t>(leaf)].surface.shape);
-    m.of_group.resize(group.size());
-    find_stretches(m.shapes, of_group, m.of_group);
+    if (m.stretches.size() < solid.leaves().size()) m.stretches.resize(solid.leaves().size());
+    if (m.of_group.size() < group.size()) m.of_group.resize(group.size());
+    find_stretches(m.shapes, of_group, {m.of_group.data(), group.size()});
     for (std::size_t g = 0; g < group.size(); ++g)
       m.stretches[static_cast<std::size_t>(group[g])] = m.of_group[g];
   }
